@@ -1,0 +1,133 @@
+#include "noise/perlin.h"
+
+#include "noise/row_blocks.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "noise/perlin.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "noise/tables-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace shimmer::noise::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::ScalableTag<float>;
+using WordTag = hn::ScalableTag<uint32_t>;
+using ByteTag = hn::ScalableTag<uint8_t>;
+using Floats = hn::Vec<FloatTag>;
+using Words = hn::Vec<WordTag>;
+using Bytes = hn::Vec<ByteTag>;
+
+float Fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+
+// A row has one y and one z. Folding them and their fades into the gradients leaves, for each of the four
+// edges along x that bound the row, gradient . p = slope x + rest by table, weights included.
+struct Edge {
+  FloatTable16 slope, rest;
+};
+
+Edge MakeEdge(float y, float z, float weight) {
+  float slope[16], rest[16];
+  for (size_t hash = 0; hash < 16; ++hash) {
+    slope[hash] = weight * kGradients[hash][0];
+    rest[hash] = weight * (kGradients[hash][1] * y + kGradients[hash][2] * z);
+  }
+  return {FloatTable16(slope), FloatTable16(rest)};
+}
+
+struct EdgeHashes {
+  Words at[2][4];  // at the cell's two sides along x, on the four edges
+};
+
+HWY_INLINE EdgeHashes HashEdges(const ByteTable& hash, Bytes i, Bytes j, Bytes k) {
+  const WordTag d;
+  const Bytes one = hn::Set(ByteTag(), 1);
+  EdgeHashes hashes;
+  for (int side = 0; side < 2; ++side) {
+    const Bytes hash_x = hn::Add(hash[side ? hn::Add(i, one) : i], j);
+    for (int up = 0; up < 2; ++up) {
+      const Bytes hash_xy = hn::Add(hash[up ? hn::Add(hash_x, one) : hash_x], k);
+      hashes.at[side][up] = hn::BitCast(d, hash[hash_xy]);
+      hashes.at[side][up + 2] = hn::BitCast(d, hash[hn::Add(hash_xy, one)]);
+    }
+  }
+  return hashes;
+}
+
+// Noise of the points whose hashes are byte j of each lane.
+template <int j>
+HWY_INLINE Floats Interpolate(const EdgeHashes& hashes, const Edge (&edges)[4], Words cell) {
+  const FloatTag d;
+  const hn::RebindToSigned<WordTag> di;
+  const Floats x =
+      hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::And(cell, hn::Set(WordTag(), kFractionMask)))),
+              hn::Set(d, kFractionUnit));
+  const Floats x_from[2] = {x, hn::Sub(x, hn::Set(d, 1.0f))};
+  Floats at[2];
+  for (int side = 0; side < 2; ++side) {
+    Floats slope = hn::Zero(d), rest = hn::Zero(d);
+    for (int edge = 0; edge < 4; ++edge) {
+      const Words index = hn::ShiftRight<8 * j>(hashes.at[side][edge]);
+      slope = hn::Add(slope, edges[edge].slope[index]);
+      rest = hn::Add(rest, edges[edge].rest[index]);
+    }
+    at[side] = hn::Add(hn::Mul(slope, x_from[side]), rest);
+  }
+  const Floats fade = hn::Mul(
+      hn::Mul(hn::Mul(x, x), x),
+      hn::Add(hn::Mul(x, hn::Sub(hn::Mul(x, hn::Set(d, 6.0f)), hn::Set(d, 15.0f))), hn::Set(d, 10.0f)));
+  return hn::Add(at[0], hn::Mul(fade, hn::Sub(at[1], at[0])));
+}
+
+void AddPerlinRow(const Permutation& permutation, Fixed x, Fixed step, Fixed y, Fixed z, float amplitude,
+                  int64_t x0, std::span<float> out) {
+  const FloatTag d;
+  const WordTag dw;
+  const size_t lanes = hn::Lanes(d);
+  const uint32_t y_cell = y.Cell8Fraction24(), z_cell = z.Cell8Fraction24();
+  const float y0 = static_cast<float>(y_cell & kFractionMask) * kFractionUnit, y1 = y0 - 1, up = Fade(y0);
+  const float z0 = static_cast<float>(z_cell & kFractionMask) * kFractionUnit, z1 = z0 - 1, deep = Fade(z0);
+  const Edge edges[4] = {
+      MakeEdge(y0, z0, (1 - up) * (1 - deep) * amplitude), MakeEdge(y1, z0, up * (1 - deep) * amplitude),
+      MakeEdge(y0, z1, (1 - up) * deep * amplitude), MakeEdge(y1, z1, up * deep * amplitude)};
+  const Bytes j = hn::Set(ByteTag(), static_cast<uint8_t>(y_cell >> 24)),
+              k = hn::Set(ByteTag(), static_cast<uint8_t>(z_cell >> 24));
+  const ByteTable hash(permutation.data());
+  const RowCoordinate along_x(x, step);
+
+  AddBlocks(x0, out, [&](int64_t block, float* sums) HWY_ATTR {
+    const Words start = hn::Set(dw, along_x.BlockStart(block));
+    for (size_t group = 0; group < kBlockPoints; group += kParts * lanes) {
+      Words cell[kParts];
+      for (size_t part = 0; part < kParts; ++part)
+        cell[part] = hn::Add(start, hn::Load(dw, along_x.offsets.data() + group + part * lanes));
+      const EdgeHashes hashes = HashEdges(hash, TopBytes(cell), j, k);
+      const auto add = [&](Floats value, size_t part) HWY_ATTR {
+        float* to = sums + group + part * lanes;
+        hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
+      };
+      add(Interpolate<0>(hashes, edges, cell[0]), 0);
+      add(Interpolate<1>(hashes, edges, cell[1]), 1);
+      add(Interpolate<2>(hashes, edges, cell[2]), 2);
+      add(Interpolate<3>(hashes, edges, cell[3]), 3);
+    }
+  });
+}
+
+}  // namespace shimmer::noise::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace shimmer::noise {
+
+HWY_EXPORT(AddPerlinRow);
+
+void AddPerlinRow(const Permutation& permutation, Fixed x, Fixed step, Fixed y, Fixed z, float amplitude,
+                  int64_t x0, std::span<float> out) {
+  HWY_DYNAMIC_DISPATCH(AddPerlinRow)(permutation, x, step, y, z, amplitude, x0, out);
+}
+
+}  // namespace shimmer::noise
+#endif

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Installs what Shimmer builds and runs with, from Debian 12 packages. Running it again is quick and changes nothing.
+#
+#   scripts/setup.sh             what building, the demo and the tests need
+#   scripts/setup.sh --photos    also 36 real photographs (wallpapers), for the demo and training sets
+#   scripts/setup.sh --all       all of it, with the peers that some tests compare against
+set -euo pipefail
+
+required=(
+  g++ cmake ninja-build pkg-config ccache git
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev libopencv-dev
+  libopenimageio-dev openimageio-tools libopenexr-dev  # OpenImageIO's CMake files name its programs
+  libtbb-dev libhwy-dev nlohmann-json3-dev libcli11-dev libssl-dev zlib1g-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+  python3
+)
+photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
+# Peers and tools that single tests use: the noise library that the paper names; readers of what we write.
+peers=(python3-noise python3-numpy python3-jsonschema python3-opencv python3-openimageio libimage-exiftool-perl)
+
+packages=("${required[@]}")
+for option in "$@"; do
+  case "$option" in
+    --photos) packages+=("${photos[@]}") ;;
+    --all) packages+=("${photos[@]}" "${peers[@]}") ;;
+    *) echo "setup.sh: unknown option '$option'; --photos and --all are the two" >&2; exit 2 ;;
+  esac
+done
+
+installed=$(dpkg-query -W -f='${db:Status-Abbrev} ${Package}\n' 2>/dev/null | sed -n 's/^ii  *//p' | sort -u)
+missing=()
+for package in "${packages[@]}"; do
+  grep -qxF "$package" <<<"$installed" || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "setup.sh: needs root (or sudo) to install: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "setup.sh: installing ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
