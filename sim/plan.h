@@ -1,0 +1,79 @@
+// What a clip needs, decided once. Absent means skipped: this is the only place that asks what a scene is
+// like, and the renderer does what the plan says. A plan is a value: `shimmer plan` prints it, the manifest
+// keeps it, tests compare it.
+#pragma once
+
+#include <optional>
+
+#include <opencv2/core.hpp>
+
+#include "sim/scene.h"
+
+namespace shimmer::sim {
+
+struct ClipShape {
+  cv::Size size;  // px
+  int frames = 1;
+  int64_t first_frame = 0;
+
+  void Validate() const;  // throws std::invalid_argument
+  friend bool operator==(const ClipShape&, const ClipShape&) = default;
+};
+
+struct TiltPlan {
+  bool frozen = false;  // one field serves all frames
+  int margin_px = 0;    // how far outside itself a pixel may be taken from, interpolation included
+
+  template <class Self, class Visitor>
+  static void Fields(Self& self, Visitor& visit) {
+    visit(Field{.name = "frozen", .help = "one field serves all frames"}, self.frozen);
+    visit(
+        Field{.name = "margin_px", .unit = "px", .help = "how far outside itself a pixel may be taken from"},
+        self.margin_px);
+  }
+  friend bool operator==(const TiltPlan&, const TiltPlan&) = default;
+};
+
+// exact: each pixel's own Gaussian (exact_blur.h). ladder: mixtures of blurred copies, to a tenth of a level
+// (ladder_blur.h). stack: the paper's 11 copies, with no promise (stack_blur.h).
+enum class BlurWay { kExact, kLadder, kStack };
+
+struct BlurPlan {
+  BlurWay way = BlurWay::kExact;
+  bool constant = false;  // one sigma everywhere: no map
+  bool noise = false;     // the map has a Perlin part
+  bool tilt = false;      // the map has a tilt part
+  bool frozen = false;    // one map serves all frames
+  int margin_px = 0;      // px around a pixel that its value is gathered from
+
+  template <class Self, class Visitor>
+  static void Fields(Self& self, Visitor& visit) {
+    visit(Field{.name = "way", .names = {"exact", "ladder", "stack"}, .help = "how the Gaussian is computed"},
+          self.way);
+    visit(Field{.name = "constant", .help = "one sigma everywhere: no map"}, self.constant);
+    visit(Field{.name = "noise", .help = "the map has a Perlin part"}, self.noise);
+    visit(Field{.name = "tilt", .help = "the map has a tilt part"}, self.tilt);
+    visit(Field{.name = "frozen", .help = "one map serves all frames"}, self.frozen);
+    visit(
+        Field{.name = "margin_px", .unit = "px", .help = "px around a pixel that its value is gathered from"},
+        self.margin_px);
+  }
+  friend bool operator==(const BlurPlan&, const BlurPlan&) = default;
+};
+
+struct ClipPlan {
+  ClipShape shape;
+  std::optional<TiltPlan> tilt;  // absent: no noise, no warp
+  std::optional<BlurPlan> blur;  // absent: no blur
+  bool linear_light = false;     // decode sRGB before, encode after
+  bool read_once = false;        // the source is a still
+  bool render_once = false;      // nothing moves: every frame is the first one
+  int halo_px = 0;               // px of the source that are read around the crop
+
+  friend bool operator==(const ClipPlan&, const ClipPlan&) = default;
+};
+
+// Throws std::invalid_argument where scene, shape or accuracy are out of their ranges.
+ClipPlan PlanClip(const Scene& scene, const ClipShape& shape, const Accuracy& accuracy);
+
+}  // namespace shimmer::sim

@@ -1,0 +1,35 @@
+#include "sim/scene.h"
+
+#include <algorithm>
+
+#include "sim/tilt_field.h"
+
+namespace shimmer::sim {
+
+void TiltParams::Validate() const {
+  RangeCheck check("tilt");
+  Fields(*this, check);
+}
+
+double TiltParams::BoundPx() const { return strength_px * std::max(1.0, KernelOf(*this).bound); }
+
+void BlurParams::Validate() const {
+  RangeCheck check("blur");
+  Fields(*this, check);
+  if (min_sigma_px > max_sigma_px)
+    throw std::invalid_argument(
+        OutOfRange("blur.min_sigma_px", min_sigma_px,
+                   Field{.name = "", .unit = "px", .low = 0, .high = max_sigma_px, .help = ""}));
+}
+
+void Accuracy::Validate() const {
+  RangeCheck check("accuracy");
+  Fields(*this, check);
+}
+
+void Scene::Validate() const {
+  tilt.Validate();
+  blur.Validate();
+}
+
+}  // namespace shimmer::sim

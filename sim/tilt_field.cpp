@@ -1,0 +1,36 @@
+#include "sim/tilt_field.h"
+
+#include <string>
+
+#include "noise/hash.h"
+
+namespace shimmer::sim {
+namespace {
+
+noise::SimplexOctaves AxisOctaves(const TiltParams& tilt, ClipKey key, std::string_view path) {
+  const noise::OctaveParams params{.octaves = tilt.octaves,
+                                   .base_frequency = tilt.base_frequency,
+                                   .temporal_scale = tilt.temporal_scale,
+                                   .lacunarity = tilt.lacunarity,
+                                   .persistence = tilt.persistence,
+                                   .peak = tilt.strength_px};
+  return {MakeOctaves(params, tilt.lattice, key, path), KernelOf(tilt)};
+}
+
+}  // namespace
+
+std::vector<noise::Octave> MakeOctaves(const noise::OctaveParams& params, LatticeKind lattice, ClipKey key,
+                                       std::string_view path) {
+  if (lattice == LatticeKind::kSeeded) return noise::SeededOctaves(params, key.seed, key.clip, path);
+  noise::HashStream stream(noise::HashPath(key.seed, key.clip, std::string(path) + ".origin"));
+  return noise::ClassicOctaves(params, noise::RandomOrigin(stream));
+}
+
+const noise::SimplexKernel& KernelOf(const TiltParams& params) {
+  return params.kernel == noise::kSimplexKernel05.radius2 ? noise::kSimplexKernel05 : noise::kSimplexKernel06;
+}
+
+TiltField::TiltField(const TiltParams& params, ClipKey key)
+    : x_(AxisOctaves(params, key, "tilt.x")), y_(AxisOctaves(params, key, "tilt.y")) {}
+
+}  // namespace shimmer::sim

@@ -1,0 +1,136 @@
+#include "sim/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace shimmer::sim {
+namespace {
+
+const ClipShape kShape{.size = {64, 48}, .frames = 4};
+
+TEST(PlanClip, SkipsWhatASceneDoesNotNeed) {
+  Scene scene;
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).tilt);
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).blur);
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).read_once);
+  EXPECT_FALSE(PlanClip(scene, kShape, {}).render_once);
+
+  Scene no_tilt = scene;
+  no_tilt.tilt.strength_px = 0;
+  EXPECT_FALSE(PlanClip(no_tilt, kShape, {}).tilt);
+  EXPECT_FALSE(PlanClip(no_tilt, kShape, {}).blur->tilt);  // tilt01 is 0 where S is 0
+
+  Scene no_blur = scene;
+  no_blur.blur.max_sigma_px = 0;
+  EXPECT_FALSE(PlanClip(no_blur, kShape, {}).blur);
+
+  Scene nothing = no_tilt;
+  nothing.blur.max_sigma_px = 0;
+  EXPECT_EQ(PlanClip(nothing, kShape, {}).halo_px, 0);
+  EXPECT_TRUE(PlanClip(nothing, kShape, {}).render_once);
+
+  Scene video = nothing;
+  video.still = false;
+  EXPECT_FALSE(PlanClip(video, kShape, {}).read_once);
+  EXPECT_FALSE(PlanClip(video, kShape, {}).render_once);
+}
+
+TEST(PlanClip, FreezesWhatStandsStill) {
+  Scene scene;
+  scene.tilt.temporal_scale = 0;
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).tilt->frozen);
+  EXPECT_FALSE(PlanClip(scene, kShape, {}).blur->frozen);  // its noise moves
+  EXPECT_FALSE(PlanClip(scene, kShape, {}).render_once);
+  scene.blur.temporal_scale = 0;
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).blur->frozen);
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).render_once);
+  scene.tilt.temporal_scale = 1;  // and now the tilt moves, and sigma with it
+  EXPECT_FALSE(PlanClip(scene, kShape, {}).blur->frozen);
+  scene.blur.tilt_weight = 0;
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).blur->frozen);
+}
+
+TEST(PlanClip, NeedsOnlyThePartsOfTheSigmaMapThatCount) {
+  Scene scene;
+  scene.blur.tilt_weight = 1;
+  EXPECT_FALSE(PlanClip(scene, kShape, {}).blur->noise);
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).blur->tilt);
+  scene.blur.tilt_weight = 0;
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).blur->noise);
+  EXPECT_FALSE(PlanClip(scene, kShape, {}).blur->tilt);
+  scene.blur.min_sigma_px = scene.blur.max_sigma_px;
+  EXPECT_TRUE(PlanClip(scene, kShape, {}).blur->constant);
+}
+
+// The budget decides: exact where less than a ladder's error is allowed, and where the config says so.
+TEST(PlanClip, ChoosesTheBlurWithinTheBudget) {
+  Scene scene;
+  const auto way = [&](double max_error_levels) {
+    return PlanClip(scene, kShape, {.max_error_levels = max_error_levels}).blur->way;
+  };
+  EXPECT_EQ(way(0), BlurWay::kExact);
+  EXPECT_EQ(way(0.09), BlurWay::kExact);
+  EXPECT_EQ(way(0.1), BlurWay::kLadder);
+  EXPECT_EQ(way(255), BlurWay::kLadder);
+  scene.blur.method = BlurMethod::kExact;
+  EXPECT_EQ(way(255), BlurWay::kExact);
+  scene.blur.method = BlurMethod::kStack;
+  EXPECT_EQ(way(0), BlurWay::kStack);
+}
+
+TEST(PlanClip, MarginsHoldEveryRead) {
+  Scene scene;
+  scene.tilt.strength_px = 4.5, scene.blur.max_sigma_px = 3;
+  scene.blur.method = BlurMethod::kExact;
+  const ClipPlan plan = PlanClip(scene, kShape, {});
+  EXPECT_EQ(plan.tilt->margin_px, 7);
+  EXPECT_EQ(plan.blur->margin_px, 18);
+  EXPECT_EQ(plan.halo_px, 25);
+  scene.tilt.kernel = 0.5;  // |n| reaches 1.084: 4.88 px
+  scene.tilt.strength_px = 5;
+  EXPECT_EQ(PlanClip(scene, kShape, {}).tilt->margin_px, 8);
+}
+
+TEST(PlanClip, IsAValue) {
+  EXPECT_EQ(PlanClip({}, kShape, {}), PlanClip({}, kShape, {}));
+  Scene other;
+  other.tilt.strength_px = 9;
+  EXPECT_NE(PlanClip(other, kShape, {}), PlanClip({}, kShape, {}));
+}
+
+template <class Change>
+std::string WhatIsWrong(const Change& change) {
+  Scene scene;
+  ClipShape shape = kShape;
+  Accuracy accuracy;
+  change(scene, shape, accuracy);
+  try {
+    PlanClip(scene, shape, accuracy);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(PlanClip, NamesTheFieldThatIsOutOfRange) {
+  EXPECT_EQ(WhatIsWrong([](Scene& s, ClipShape&, Accuracy&) { s.tilt.strength_px = -3; }),
+            "tilt.strength_px = -3, must be in [0, 64] px");
+  EXPECT_EQ(WhatIsWrong([](Scene& s, ClipShape&, Accuracy&) { s.tilt.kernel = 0.55; }),
+            "tilt.kernel = 0.55, must be 0.5 or 0.6");
+  EXPECT_EQ(WhatIsWrong([](Scene& s, ClipShape&, Accuracy&) { s.blur.octaves = 17; }),
+            "blur.octaves = 17, must be in [1, 16]");
+  EXPECT_EQ(WhatIsWrong([](Scene& s, ClipShape&, Accuracy&) { s.blur.min_sigma_px = 4; }),
+            "blur.min_sigma_px = 4, must be in [0, 3] px");
+  EXPECT_NE(WhatIsWrong([](Scene& s, ClipShape&, Accuracy&) {
+              s.tilt.base_frequency = std::numeric_limits<double>::quiet_NaN();
+            }),
+            "nothing");
+  EXPECT_NE(WhatIsWrong([](Scene&, ClipShape& s, Accuracy&) { s.size.width = 0; }), "nothing");
+  EXPECT_NE(WhatIsWrong([](Scene&, ClipShape& s, Accuracy&) { s.first_frame = int64_t{1} << 31; }),
+            "nothing");
+  EXPECT_NE(WhatIsWrong([](Scene&, ClipShape&, Accuracy& a) { a.max_error_px = -1; }), "nothing");
+}
+
+}  // namespace
+}  // namespace shimmer::sim
