@@ -37,7 +37,6 @@ ClipRenderer::ClipRenderer(const Scene& scene, const ClipPlan& plan, ClipKey key
     : scene_(scene), plan_(plan), border_px_(plan.blur ? plan.blur->margin_px : 0) {
   if (plan_.tilt) tilt_.emplace(scene_.tilt, key);
   if (plan_.blur && plan_.blur->noise) blur_noise_.emplace(scene_.blur, scene_.tilt.lattice, key);
-  if (plan_.blur && plan_.blur->way == BlurWay::kLadder) ladder_.emplace(scene_.blur.max_sigma_px);
   if (plan_.tilt && plan_.tilt->frozen) frozen_shifts_ = ComputeShifts(0);
   if (plan_.blur && plan_.blur->frozen) frozen_sigma_ = ComputeSigma(0, ComputeShifts(0));
 }
@@ -116,7 +115,8 @@ RenderedFrame ClipRenderer::Render(int64_t t, const cv::Mat& clean_with_halo) co
     std::optional<LadderBlur> mixtures;
     if (plan_.blur->way == BlurWay::kStack)
       stack.emplace(frame, scene_.blur.min_sigma_px, scene_.blur.max_sigma_px);
-    if (ladder_) mixtures.emplace(frame, *ladder_);
+    if (plan_.blur->way == BlurWay::kLadder)
+      mixtures.emplace(frame, LevelLadder::For(scene_.blur.max_sigma_px));
     tbb::parallel_for(0, size.height, [&](int y) {
       const cv::Point first(border_px_, y + border_px_);
       if (mixtures)

@@ -8,7 +8,6 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "sim/level_ladder.h"
 #include "sim/plan.h"
 #include "sim/sigma_map.h"
 #include "sim/tilt_field.h"
@@ -55,7 +54,6 @@ class ClipRenderer {
   int border_px_ = 0;  // of the shifts, beyond the clip
   std::optional<TiltField> tilt_;
   std::optional<BlurNoise> blur_noise_;
-  std::optional<LevelLadder> ladder_;
   std::optional<Shifts> frozen_shifts_;
   std::optional<cv::Mat> frozen_sigma_;
 };

@@ -8,8 +8,10 @@
 // two levels.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <vector>
+
+#include "sim/level_mixtures.h"
 
 namespace shimmer::sim {
 
@@ -17,28 +19,10 @@ namespace shimmer::sim {
 // sigma (tests/sim/ladder_blur_test.cpp; the largest measured is 0.065).
 inline constexpr double kLadderErrorLevels = 0.1;
 
-struct BlurLevel {
-  double variance_px2;  // sigma^2
-  int spacing_px;       // of its grid: 1, 2, 4, ... px; values between are a cubic B-spline's
-  std::vector<double>
-      kernel;  // spacing 1: of the whole blur, from the frame; else from the level before it (level 0
-               // for the first coarse one), on the grid of that level. Half: w[0], w[1], ...
-};
-
-// A stretch of sigma^2 in which four levels are mixed with weights that are cubics in t:
-//   index 0: sigma^2 in [0, 1/16), t = 16 sigma^2;  index i > 0: sigma^2 in 2^(i - 5) [1, 2), t its place
-//   there, in [0, 1).
-struct BlurMixture {
-  std::array<int, 4> level;  // numbers of the levels; at least two distinct from the others
-  std::array<std::array<double, 4>, 4> weight;  // [which of the four][power of t]; they sum to 1 for every t
-};
-
 class LevelLadder {
  public:
-  static constexpr int kMostMixtures = 15;  // sigma up to 32 px
-
-  // The shortest ladder that holds sigmas up to max_sigma_px, in (0, 32].
-  explicit LevelLadder(double max_sigma_px);
+  // The shortest ladder that holds sigmas up to max_sigma_px, in (0, 32]. Made once for all who ask for it.
+  static const LevelLadder& For(double max_sigma_px);
 
   const std::vector<BlurLevel>& levels() const { return levels_; }
   const std::vector<BlurMixture>& mixtures() const { return mixtures_; }
@@ -46,10 +30,9 @@ class LevelLadder {
   // Px around a pixel that its value is gathered from.
   int margin_px() const { return margin_px_; }
 
-  // Spacing of the coarsest grid. Grids start at the frame's first pixel.
-  int coarsest_px() const { return levels_.back().spacing_px; }
-
  private:
+  explicit LevelLadder(size_t levels);
+
   std::vector<BlurLevel> levels_;
   std::vector<BlurMixture> mixtures_;
   int margin_px_ = 0;

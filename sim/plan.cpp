@@ -24,7 +24,7 @@ BlurWay WayOf(const BlurParams& blur, const Accuracy& accuracy) {
 
 BlurPlan PlanBlur(const BlurParams& blur, const std::optional<TiltPlan>& tilt, const Accuracy& accuracy) {
   BlurPlan plan{.way = WayOf(blur, accuracy)};
-  plan.margin_px = plan.way == BlurWay::kLadder ? LevelLadder(blur.max_sigma_px).margin_px()
+  plan.margin_px = plan.way == BlurWay::kLadder ? LevelLadder::For(blur.max_sigma_px).margin_px()
                                                 : GaussianRadius(blur.max_sigma_px);
   const bool varies = blur.max_sigma_px > blur.min_sigma_px;
   plan.noise = varies && blur.tilt_weight < 1;

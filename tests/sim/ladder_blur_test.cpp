@@ -62,7 +62,7 @@ cv::Mat Waves(cv::Size size, double most) {
 TEST(LadderBlur, IsWithinATenthOfALevelOnPhotographs) {
   const std::filesystem::path folder = SHIMMER_SHARED_DIR "/data/photos/kodak8";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "data/photos/kodak8 is not beside this checkout";
-  const LevelLadder ladder(32), to8(8), to3(3);
+  const LevelLadder &ladder = LevelLadder::For(32), &to8 = LevelLadder::For(8), &to3 = LevelLadder::For(3);
   int photographs = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
     if (file.path().extension() != ".png") continue;
@@ -90,14 +90,14 @@ TEST(LadderBlur, IsWithinATenthOfALevelOnADrawnWall) {
   const cv::Mat image = DrawScene(DrawnScene::kBricks, {300, 200}, 0, 1, 0);
   for (double most : {0.7, 2.0, 6.0, 16.0}) {
     const cv::Mat sigma = Waves({120, 60}, most);
-    EXPECT_LE(Rms(Fast(image, {90, 70}, sigma, LevelLadder(most)), Exact(image, {90, 70}, sigma)), 0.1)
+    EXPECT_LE(Rms(Fast(image, {90, 70}, sigma, LevelLadder::For(most)), Exact(image, {90, 70}, sigma)), 0.1)
         << most;
   }
 }
 
 TEST(LadderBlur, IsTheIdentityAtSigma0) {
   const cv::Mat image = SinesPicture({60, 40}, 0);
-  const cv::Mat out = Fast(image, {10, 5}, cv::Mat::zeros(21, 37, CV_32F), LevelLadder(4));
+  const cv::Mat out = Fast(image, {10, 5}, cv::Mat::zeros(21, 37, CV_32F), LevelLadder::For(4));
   EXPECT_TRUE(SameBytes(out, image(cv::Rect(10, 5, 37, 21))));
 }
 
@@ -105,7 +105,7 @@ TEST(LadderBlur, IsTheIdentityAtSigma0) {
 // the same.
 TEST(LadderBlur, IsContinuousInSigma) {
   const cv::Mat image = DrawScene(DrawnScene::kChart, {200, 150}, 0, 1, 0);
-  const LevelLadder ladder(32);
+  const LevelLadder& ladder = LevelLadder::For(32);
   for (double end = 0.0625; end <= 512; end *= 2) {
     const auto at = static_cast<float>(std::sqrt(end));
     const cv::Mat below(8, 60, CV_32F, cv::Scalar(std::nextafter(at, 0.0f) * (1 - 1e-6f))),
@@ -126,7 +126,7 @@ TEST(LadderBlur, IsContinuousInSigma) {
 TEST(LadderBlur, AConstantStaysConstant) {
   const cv::Mat image(90, 150, CV_32FC3, cv::Scalar(0.2, 0.7, 1.0));
   for (double most : {0.5, 3.0, 32.0}) {
-    const cv::Mat out = Fast(image, {0, 0}, Waves({150, 30}, most), LevelLadder(most));
+    const cv::Mat out = Fast(image, {0, 0}, Waves({150, 30}, most), LevelLadder::For(most));
     EXPECT_LT(cv::norm(out, image(cv::Rect(0, 0, 150, 30)), cv::NORM_INF), 1e-6) << most;
   }
 }
@@ -138,14 +138,15 @@ TEST(LadderBlur, KeepsEnergy) {
       const int size = 16 * static_cast<int>(s + 2);
       cv::Mat image = cv::Mat::zeros(size, size, CV_32F);
       image.at<float>(size / 2 + phase, size / 2 - phase) = 1;
-      const cv::Mat out = Fast(image, {0, 0}, cv::Mat(size, size, CV_32F, cv::Scalar(s)), LevelLadder(s));
+      const cv::Mat out =
+          Fast(image, {0, 0}, cv::Mat(size, size, CV_32F, cv::Scalar(s)), LevelLadder::For(s));
       EXPECT_NEAR(cv::sum(out)[0], 1, 1e-4) << s << " " << phase;
     }
 }
 
 // Grids, stretches and vectors begin somewhere; a pixel must not know where.
 TEST(LadderBlur, HasNoSeams) {
-  const LevelLadder ladder(9);
+  const LevelLadder& ladder = LevelLadder::For(9);
   const int margin = ladder.margin_px();
   const LadderBlur blur(SinesPicture({700, 40}, margin), ladder);
   const cv::Mat sigma = Waves({700, 40}, 9);
@@ -163,7 +164,8 @@ TEST(LadderBlur, HasNoSeams) {
 TEST(LadderBlur, WorksOnTheSmallestPicturesGreyOrColour) {
   for (cv::Size size : {cv::Size(1, 1), cv::Size(1, 17), cv::Size(17, 1)})
     for (int channels : {1, 3}) {
-      const cv::Mat out = Fast(SinesPicture(size, 0, channels), {0, 0}, Waves(size, 32), LevelLadder(32));
+      const cv::Mat out =
+          Fast(SinesPicture(size, 0, channels), {0, 0}, Waves(size, 32), LevelLadder::For(32));
       EXPECT_EQ(out.channels(), channels);
       EXPECT_TRUE(cv::checkRange(out, true, nullptr, -0.01, 1.01));
     }
@@ -171,7 +173,7 @@ TEST(LadderBlur, WorksOnTheSmallestPicturesGreyOrColour) {
 
 TEST(LadderBlur, IsTheSameOnEveryTarget) {
   const cv::Mat image = SinesPicture({80, 30}, 0), sigma = Waves({61, 9}, 7);
-  const LevelLadder ladder(7);
+  const LevelLadder& ladder = LevelLadder::For(7);
   cv::Mat first;
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
     hwy::SetSupportedTargetsForTest(target);
@@ -185,7 +187,7 @@ TEST(LadderBlur, IsTheSameOnEveryTarget) {
 // The cubics themselves: they sum to one everywhere, and hand over to each other without a step.
 TEST(LevelLadder, MixturesSumToOneAndMeet) {
   for (double most : {0.1, 0.5, 3.0, 8.0, 32.0}) {
-    const LevelLadder ladder(most);
+    const LevelLadder& ladder = LevelLadder::For(most);
     ASSERT_LE(ladder.mixtures().size(), 16u);
     std::vector<double> before(ladder.levels().size(), 0.0);
     before[0] = 1;

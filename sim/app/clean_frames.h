@@ -1,0 +1,56 @@
+// The clean frames of one clip, as the simulation and the clean file see them: scaled, cropped with a halo,
+// mirrored, in the output's light, and rounded to the output's bits, so that the pair agrees to the last bit
+// that is on disk.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "sim/app/config/config.h"
+#include "sim/app/source_list.h"
+#include "sim/dataset/image_io.h"
+#include "sim/draw.h"
+
+namespace shimmer::app {
+
+cv::Size Scaled(cv::Size size, double scale);  // to the nearest pixel, at least one each way
+
+dataset::Encoding EncodingOf(const OutputParams& output);
+
+// True where frames on disk are linear light: EXR, in colour "linear".
+bool OutputIsLinear(const Config& config);
+
+class CleanFrames {
+ public:
+  // Chooses the source and the place in it by the clip's hash. Throws std::runtime_error if the source can't
+  // be read or is too small or too short.
+  CleanFrames(const SourceList& sources, const Config& config, sim::ClipKey key);
+
+  bool still() const;
+
+  // Frame t (config.first_frame .. ) with halo_px more on each side than the clip. A still is read once.
+  cv::Mat Frame(int64_t t, int halo_px);
+
+  // {"path", "sha256", "scale", "crop": [x, y, w, h], "flip", "start", ...}: what was chosen, for
+  // the manifest. Complete after the first Frame().
+  const Json& record() const { return record_; }
+
+ private:
+  cv::Mat Prepare(const dataset::Picture& picture, int halo_px);
+  cv::Rect ChooseCrop(cv::Size scaled);
+  double FittingScale(cv::Size size) const;
+
+  const SourceList& sources_;
+  const Config& config_;
+  sim::ClipKey key_;
+  size_t item_ = 0;
+  std::unique_ptr<dataset::FrameReader> reader_;  // null for drawn scenes
+  int64_t start_ = 0;
+  uint64_t variation_ = 0;  // of a drawn scene
+  bool flip_ = false;
+  Json record_;
+  cv::Mat still_frame_;
+  int still_halo_px_ = -1;
+};
+
+}  // namespace shimmer::app

@@ -1,0 +1,121 @@
+#include "sim/app/commands.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include "sim/app/generate.h"
+#include "sim/app/job.h"
+#include "sim/app/preview.h"
+
+namespace shimmer::app {
+namespace {
+
+std::string PlanText(const std::filesystem::path& config_path, const std::vector<std::string>& sets,
+                     int64_t clip) {
+  const ConfigFile file = LoadConfig(config_path, sets);
+  if (clip >= file.fixed().clips)
+    throw std::invalid_argument("--clip " + std::to_string(clip) + ": must be in [0, " +
+                                std::to_string(file.fixed().clips - 1) + "]");
+  Json drawn = Json::object();
+  const Config config = file.Draw(static_cast<uint64_t>(clip), &drawn);
+  const bool still = config.source.video.empty() && config.source.sequence.empty();
+  return Json{{"clip", clip}, {"drawn", drawn}, {"plan", PlanJson(PlanOf(config, still))}}.dump(2) + "\n";
+}
+
+void Print(const std::string& text) {
+  std::cout << text << std::flush;
+  if (!std::cout) throw std::runtime_error("standard output: can't be written");
+}
+
+// CLI11 would say that a command is missing, and not which word is none.
+void RequireCommand(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  if (std::ranges::count(commands, word) > 0) return;
+  throw std::invalid_argument("unknown command '" + word + "', must be " + Listed(commands, "or") +
+                              " (shimmer --help)");
+}
+
+// One line, whatever a library put into its message.
+int Report(const std::string& message, int exit_code) {
+  std::string line = message;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::fprintf(stderr, "shimmer: %s\n", line.c_str());
+  return exit_code;
+}
+
+}  // namespace
+
+int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& stop) {
+  CLI::App app("Paired clips seen through atmospheric turbulence, from clean pictures and one config file.",
+               "shimmer");
+  app.set_version_flag("--version", kVersion);
+  app.require_subcommand(1);
+
+  GenerateOptions generate;
+  const auto add_config = [](CLI::App* command, std::filesystem::path& config,
+                             std::vector<std::string>& sets) {
+    command->add_option("CONFIG", config, "config file (JSON; `shimmer keys` lists what it may say)")
+        ->required();
+    command->add_option("--set", sets, "override a key: tilt.strength_px=5. Repeat as needed")
+        ->allow_extra_args(false);
+  };
+  CLI::App* generate_command = app.add_subcommand(
+      "generate", "make the clips of a config; the same command again goes on where it stopped");
+  add_config(generate_command, generate.config, generate.sets);
+  generate_command->add_option("--out", generate.out, "folder of the data set")->required();
+  generate_command->add_option("--clip", generate.only_clips, "make only this clip. Repeat as needed")
+      ->allow_extra_args(false);
+  generate_command->add_option("--threads", generate.threads, "number of threads (default: all)")
+      ->check(CLI::Range(1, 4096));
+  generate_command->add_flag("--quiet", generate.quiet, "no progress");
+
+  std::filesystem::path plan_config;
+  std::vector<std::string> plan_sets;
+  int64_t plan_clip = 0;
+  CLI::App* plan_command =
+      app.add_subcommand("plan", "print what a clip of a config needs, and what is skipped");
+  add_config(plan_command, plan_config, plan_sets);
+  plan_command->add_option("--clip", plan_clip, "which clip (default: 0)")->check(CLI::NonNegativeNumber);
+
+  PreviewOptions preview;
+  CLI::App* preview_command =
+      app.add_subcommand("preview", "draw a data set: a contact sheet (.png) or one clip moving (.gif)");
+  preview_command->add_option("DIR", preview.folder, "folder of the data set")->required();
+  preview_command->add_option("--out", preview.out, "picture to write: .png or .gif")->required();
+  preview_command->add_option("--clip", preview.clip, "the clip that the .gif shows (default: the first)")
+      ->check(CLI::NonNegativeNumber);
+  preview_command->add_option("--rows", preview.rows, "rows of the sheet (default: 8)")
+      ->check(CLI::Range(1, 100));
+
+  CLI::App* keys_command =
+      app.add_subcommand("keys", "list every key of a config, with its range, default and meaning");
+  CLI::App* schema_command = app.add_subcommand("schema", "print the config's JSON schema");
+
+  const std::filesystem::path* config_path = nullptr;
+  try {
+    if (argc > 1 && argv[1][0] != '-') RequireCommand(app, argv[1]);
+    app.parse(argc, argv);
+    if (*generate_command) return config_path = &generate.config, Generate(generate, stop);
+    if (*plan_command) config_path = &plan_config, Print(PlanText(plan_config, plan_sets, plan_clip));
+    if (*preview_command) Preview(preview);
+    if (*keys_command) Print(KeysHelpText());
+    if (*schema_command) Print(SchemaText());
+    return kExitDone;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return Report(std::string(error.what()) + " (shimmer --help)", kExitWrongInput);
+  } catch (const ConfigError& error) {
+    const std::string where = error.pointer().empty() ? "" : ":" + error.pointer();
+    return Report(config_path->string() + where + ": " + error.what(), kExitWrongInput);
+  } catch (const std::invalid_argument& error) {
+    return Report(error.what(), kExitWrongInput);
+  } catch (const std::exception& error) {
+    return Report(error.what(), kExitFailed);
+  }
+}
+
+}  // namespace shimmer::app

@@ -1,0 +1,12 @@
+// The program `shimmer`: its commands, and the one place where errors become a line and an exit code.
+#pragma once
+
+#include <atomic>
+
+namespace shimmer::app {
+
+// Runs the command that the arguments name; returns the exit code: 0 done, 1 failed on the way, 2 wrong
+// input, 130 interrupted. stop is set by the signals that ask a run to end.
+int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& stop);
+
+}  // namespace shimmer::app

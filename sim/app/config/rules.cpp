@@ -1,0 +1,85 @@
+#include "sim/app/config/rules.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "sim/app/config/distribution.h"
+#include "sim/app/config/keys.h"
+
+namespace shimmer::app {
+namespace {
+
+constexpr int64_t kFramesEnd = int64_t{1} << 31;  // every frame's time is below this
+
+// Of a section's alternatives exactly one is given.
+void CheckAlternatives(const Key& section, const Json& values) {
+  std::vector<std::string> names, given;
+  for (const Key& key : section.keys) {
+    if (key.kind == Kind::kSection) CheckAlternatives(key, values.at(key.name()));
+    if (!key.field.alternative) continue;
+    names.push_back(key.name());
+    if (values.contains(key.name())) given.push_back(key.name());
+  }
+  if (names.empty() || given.size() == 1) return;
+  if (given.empty())
+    throw ConfigError(section.pointer, "has none of " + Listed(names, "and") + ", must have exactly one");
+  throw ConfigError(section.pointer, "has " + Listed(given, "and") + ", must have exactly one of " +
+                                         Listed(names, "and") + " (--set " + section.path + "." +
+                                         given.front() + "=null takes one away)");
+}
+
+void CheckSigmas(const Json& resolved) {
+  const sim::BlurParams& blur = DefaultConfig().blur;
+  const Key &min_key = KeyOf(blur.min_sigma_px), &max_key = KeyOf(blur.max_sigma_px);
+  const Json& min = resolved.at(Json::json_pointer(min_key.pointer));
+  const Json& max = resolved.at(Json::json_pointer(max_key.pointer));
+  if (SupportOf(min).high > SupportOf(max).low)
+    throw ConfigError(min_key.pointer, "is " + Shown(min) + ", must never exceed " + max_key.path +
+                                           ", which is " + Shown(max));
+}
+
+void CheckFrames(const Config& fixed) {
+  const Config& all = DefaultConfig();
+  const Key &first_key = KeyOf(all.first_frame), &frames_key = KeyOf(all.frames);
+  if (fixed.first_frame + fixed.frames > kFramesEnd)
+    throw ConfigError(first_key.pointer, "is " + std::to_string(fixed.first_frame) + ", must be at most " +
+                                             std::to_string(kFramesEnd - fixed.frames) + " for " +
+                                             frames_key.path + " = " + std::to_string(fixed.frames));
+  const Key& kept_key = KeyOf(all.output.frames_per_clip);
+  if (fixed.output.frames_per_clip > fixed.frames)
+    throw ConfigError(kept_key.pointer, "is " + std::to_string(fixed.output.frames_per_clip) +
+                                            ", must be at most " + frames_key.path + " = " +
+                                            std::to_string(fixed.frames));
+}
+
+void CheckOutput(const OutputParams& output) {
+  const OutputParams& all = DefaultConfig().output;
+  const std::vector<int> bits = output.format == Format::kPng ? std::vector{8, 16} : std::vector{16, 32};
+  if (std::find(bits.begin(), bits.end(), output.bits) == bits.end()) {
+    const Key& format_key = KeyOf(all.format);
+    throw ConfigError(KeyOf(all.bits).pointer,
+                      "is " + std::to_string(output.bits) + ", must be " + std::to_string(bits[0]) + " or " +
+                          std::to_string(bits[1]) + " where " + format_key.path + " is " +
+                          format_key.field.names.at(static_cast<size_t>(output.format)));
+  }
+  const std::string& name = output.name;
+  const bool plain =
+      name.front() != '.' && name.front() != '-' && name.find('/') == std::string::npos &&
+      std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+  if (!plain)
+    throw ConfigError(KeyOf(all.name).pointer, "is " + Shown(name) +
+                                                   ", must be the plain name of a folder: no '/', no control "
+                                                   "characters, no '.' or '-' at its start");
+}
+
+}  // namespace
+
+void CheckRules(const Json& resolved, const Config& fixed) {
+  CheckAlternatives(AllKeys(), resolved);
+  CheckSigmas(resolved);
+  CheckFrames(fixed);
+  CheckOutput(fixed.output);
+}
+
+}  // namespace shimmer::app

@@ -1,0 +1,26 @@
+// shimmer generate CONFIG --out DIR
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shimmer::app {
+
+struct GenerateOptions {
+  std::filesystem::path config, out;
+  std::vector<std::string> sets;
+  std::vector<int64_t> only_clips;  // empty: all
+  int threads = 0;                  // 0: as many as the machine has
+  bool quiet = false;
+};
+
+inline constexpr int kExitDone = 0, kExitFailed = 1, kExitWrongInput = 2, kExitInterrupted = 130;
+
+// Makes the clips that the folder does not have yet, several at a time; returns the exit code. A clip whose
+// source is bad is noted as failed and the rest go on. Throws ConfigError and std::invalid_argument (nothing
+// was touched), and std::runtime_error where the folder can't be written.
+int Generate(const GenerateOptions& options, const std::atomic<bool>& stop);
+
+}  // namespace shimmer::app

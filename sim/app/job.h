@@ -1,0 +1,45 @@
+// A data set to be made: its config, its sources, and what follows from them for each clip.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "sim/app/config/config.h"
+#include "sim/app/source_list.h"
+#include "sim/dataset/layout.h"
+#include "sim/plan.h"
+
+namespace shimmer::app {
+
+// Grows by one whenever the pixels of an existing config change.
+inline constexpr int kEngine = 1;
+inline constexpr const char* kVersion = "shimmer 0.1.0";
+
+// Throws ConfigError, or std::invalid_argument if the file can't be read.
+ConfigFile LoadConfig(const std::filesystem::path& path, std::span<const std::string> sets);
+
+struct Job {
+  ConfigFile config;
+  SourceList sources;
+
+  // Reads the config file, applies the overrides, finds the sources (none below out, where clips go). Throws
+  // as LoadConfig, and ConfigError where a source pattern matches nothing.
+  static Job Load(const std::filesystem::path& config_path, std::span<const std::string> sets,
+                  const std::filesystem::path& out);
+
+  // What dataset.json says: config, its hash, sources with hashes, engine, version.
+  Json Description() const;
+  dataset::Layout Layout() const;
+};
+
+sim::ClipShape ShapeOf(const Config& config);
+
+// The scene that a clip's values mean, and its plan.
+sim::Scene SceneOf(const Config& config, bool still);
+sim::ClipPlan PlanOf(const Config& config, bool still);
+
+// {"tilt": {...} or null, "blur": {...} or null, "halo_px": ..., ...}: null is skipped.
+Json PlanJson(const sim::ClipPlan& plan);
+
+}  // namespace shimmer::app

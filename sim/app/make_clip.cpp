@@ -1,0 +1,135 @@
+#include "sim/app/make_clip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/app/clean_frames.h"
+#include "sim/clip.h"
+#include "sim/dataset/pixel_hash.h"
+
+namespace shimmer::app {
+namespace {
+
+Json OriginJson(const noise::Origin& origin) {
+  return {origin[0].ToDouble(), origin[1].ToDouble(), origin[2].ToDouble()};
+}
+
+// classic: the one origin [x, y, t]; seeded: one per octave.
+Json OriginsJson(const std::vector<noise::Octave>& octaves, sim::LatticeKind lattice) {
+  if (lattice == sim::LatticeKind::kClassic) return OriginJson(octaves.front().origin);
+  Json origins = Json::array();
+  for (const noise::Octave& octave : octaves) origins.push_back(OriginJson(octave.origin));
+  return origins;
+}
+
+// The frames of a clip that are kept: all, or for pairs frames_per_clip of them, evenly spread.
+std::vector<int64_t> KeptFrames(const Config& config) {
+  const int kept = config.output.layout == LayoutKind::kPairs ? config.output.frames_per_clip : config.frames;
+  std::vector<int64_t> frames;
+  for (int64_t k = 0; k < kept; ++k) frames.push_back(config.first_frame + k * config.frames / kept);
+  return frames;
+}
+
+// A picture's file and its hash.
+dataset::ClipFile PictureFile(std::string path, const cv::Mat& image, dataset::Encoding encoding) {
+  return {std::move(path), dataset::EncodeImage(image, encoding), dataset::PixelHash(image, encoding)};
+}
+
+dataset::ClipFile TruthFile(std::string path, const sim::FrameTruth& frame,
+                            const std::vector<std::string>& truth) {
+  const auto wanted = [&](const char* kind) { return std::ranges::count(truth, kind) > 0; };
+  std::vector<std::string> channels;
+  std::vector<cv::Mat> planes;
+  if (wanted("tilt")) {
+    channels = {"dx", "dy"};
+    cv::split(frame.tilt, planes);
+  }
+  if (wanted("sigma")) {
+    channels.push_back("sigma");
+    planes.push_back(frame.sigma);
+  }
+  cv::Mat picture;
+  cv::merge(planes, picture);
+  return {std::move(path), dataset::EncodeExr(picture, 32, channels),
+          dataset::PixelHash(picture, {dataset::FileFormat::kExr, 32})};
+}
+
+// What the manifest says of the turbulence itself.
+class FieldStatistics {
+ public:
+  void Add(const sim::FrameTruth& frame) {
+    // Pixel by pixel: OpenCV's sums depend on the CPU in their last digits.
+    double tilt2 = 0, sigma = 0;
+    for (int y = 0; y < frame.sigma.rows; ++y)
+      for (int x = 0; x < frame.sigma.cols; ++x) {
+        const cv::Vec2d d = frame.tilt.at<cv::Vec2f>(y, x);
+        tilt2 += d[0] * d[0] + d[1] * d[1];
+        sigma += frame.sigma.at<float>(y, x);
+      }
+    const double pixels = static_cast<double>(frame.sigma.total());
+    tilt2_ += tilt2 / (2 * pixels);
+    sigma_ += sigma / pixels;
+    ++frames_;
+  }
+  double tilt_rms_px() const { return std::sqrt(tilt2_ / frames_); }
+  double mean_sigma_px() const { return sigma_ / frames_; }
+
+ private:
+  double tilt2_ = 0, sigma_ = 0;
+  int frames_ = 0;
+};
+
+}  // namespace
+
+MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, Json& line) {
+  const Config config = job.config.Draw(static_cast<uint64_t>(clip), &line["drawn"]);
+  const sim::ClipKey key{config.seed, static_cast<uint64_t>(clip)};
+  CleanFrames clean(job.sources, config, key);
+  const sim::Scene scene = SceneOf(config, clean.still());
+  const sim::ClipPlan plan = PlanOf(config, clean.still());
+  const sim::ClipRenderer renderer(scene, plan, key);
+  line["plan"] = PlanJson(plan);
+  if (renderer.tilt_field()) {
+    line["tilt.origin_x"] = OriginsJson(renderer.tilt_field()->x().octaves(), config.tilt.lattice);
+    line["tilt.origin_y"] = OriginsJson(renderer.tilt_field()->y().octaves(), config.tilt.lattice);
+  }
+  if (renderer.blur_noise())
+    line["blur.origin"] = OriginsJson(renderer.blur_noise()->octaves().octaves(), config.tilt.lattice);
+
+  const dataset::Layout layout = job.Layout();
+  const dataset::Encoding encoding = EncodingOf(config.output);
+  const bool one_clean_file = plan.read_once && layout.kind == dataset::LayoutKind::kSequence;
+  const std::vector<int64_t> times = KeptFrames(config);
+  MadeClip made;
+  FieldStatistics statistics;
+  dataset::ClipFile turb, truth, clean_file;  // of the last frame that was computed
+  for (size_t k = 0; k < times.size(); ++k) {
+    if (stop) throw Interrupted();
+    const auto path = [&](dataset::FrameKind kind) {
+      return layout.Path(kind, clip, static_cast<int64_t>(k));
+    };
+    if (k == 0 || !plan.render_once) {
+      const cv::Mat frame = clean.Frame(times[k], plan.halo_px);
+      const sim::RenderedFrame rendered = renderer.Render(times[k], frame);
+      statistics.Add(rendered.truth);
+      turb = PictureFile("", rendered.turb, encoding);
+      if (!config.output.truth.empty()) truth = TruthFile("", rendered.truth, config.output.truth);
+      if (k == 0 || !plan.read_once)
+        clean_file = PictureFile("", frame(cv::Rect({plan.halo_px, plan.halo_px}, config.size)), encoding);
+    }
+    const auto keep = [&](dataset::ClipFile file, dataset::FrameKind kind) {
+      file.path = path(kind);
+      made.files.push_back(std::move(file));
+    };
+    keep(turb, dataset::FrameKind::kTurb);
+    if (k == 0 || !one_clean_file) keep(clean_file, dataset::FrameKind::kClean);
+    if (!config.output.truth.empty()) keep(truth, dataset::FrameKind::kTruth);
+  }
+  line["source"] = clean.record();
+  line["tilt_rms_px"] = statistics.tilt_rms_px();
+  line["mean_sigma_px"] = statistics.mean_sigma_px();
+  made.line = line;
+  return made;
+}
+
+}  // namespace shimmer::app

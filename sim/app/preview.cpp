@@ -1,0 +1,135 @@
+#include "sim/app/preview.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "sim/app/clean_frames.h"
+#include "sim/app/job.h"
+#include "sim/app/sheet.h"
+#include "sim/clip.h"
+#include "sim/colour.h"
+#include "sim/dataset/dataset_reader.h"
+#include "sim/dataset/files.h"
+
+namespace shimmer::app {
+namespace {
+
+constexpr int kMostGifFrames = 200, kGifDelayMs = 80, kGifFramePx = 512;
+
+// Frame `kept` of a clip in the data set, as time in its config.
+int64_t TimeOf(const Config& config, int64_t kept, int64_t kept_frames) {
+  return config.first_frame + kept * config.frames / kept_frames;
+}
+
+std::string Label(int64_t clip, int64_t frame, const Config& config) {
+  char text[160];
+  std::snprintf(text, sizeof text, "clip %lld  frame %lld   S %.2f px   f %.4f   sigma %.2f-%.2f px",
+                static_cast<long long>(clip), static_cast<long long>(frame), config.tilt.strength_px,
+                config.tilt.base_frequency, config.blur.min_sigma_px, config.blur.max_sigma_px);
+  return text;
+}
+
+// Up to `rows` clips, evenly spread.
+std::vector<int64_t> SomeClips(const std::set<int64_t>& clips, int rows) {
+  const std::vector<int64_t> all(clips.begin(), clips.end());
+  const size_t count = std::min(all.size(), static_cast<size_t>(rows));
+  std::vector<int64_t> some;
+  for (size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+// A data set is no argument of the person's: what is wrong with its config is the world's fault.
+ConfigFile ConfigOf(const std::filesystem::path& folder, const Json& description) {
+  try {
+    return ConfigFile::Parse(description.value("config", Json()).dump());
+  } catch (const ConfigError& error) {
+    throw std::runtime_error((folder / "dataset.json").string() + ":/config" + error.pointer() + ": " +
+                             error.what());
+  }
+}
+
+class Previewer {
+ public:
+  explicit Previewer(const std::filesystem::path& folder)
+      : reader_(folder),
+        config_(ConfigOf(folder, reader_.description())),
+        same_engine_(reader_.description().value("engine", 0) == kEngine) {
+    if (reader_.clips().empty()) throw std::runtime_error(folder.string() + ": has no clip that is done");
+  }
+
+  cv::Mat Sheet(int rows) const {
+    std::vector<SheetRow> sheet;
+    for (int64_t clip : SomeClips(reader_.clips(), rows)) sheet.push_back(Row(clip));
+    return DrawSheet(sheet);
+  }
+
+  std::vector<cv::Mat> Frames(int64_t clip) const {
+    if (clip < 0) clip = *reader_.clips().begin();
+    const Config config = config_.Draw(static_cast<uint64_t>(clip), nullptr);
+    std::vector<cv::Mat> frames;
+    for (int64_t k = 0; k < std::min<int64_t>(reader_.FrameCount(clip), kMostGifFrames); ++k)
+      frames.push_back(DrawClipFrame(Small(ForTheEye(reader_.Clean(clip, k))),
+                                     Small(ForTheEye(reader_.Turb(clip, k))), Label(clip, k, config)));
+    return frames;
+  }
+
+ private:
+  SheetRow Row(int64_t clip) const {
+    const Config config = config_.Draw(static_cast<uint64_t>(clip), nullptr);
+    const int64_t frames = reader_.FrameCount(clip), frame = frames / 2;
+    SheetRow row{.label = Label(clip, frame, config),
+                 .clean = ForTheEye(reader_.Clean(clip, frame)),
+                 .turb = ForTheEye(reader_.Turb(clip, frame)),
+                 .tilt = {},
+                 .sigma = {}};
+    const auto tilt = reader_.TruthTilt(clip, frame), sigma = reader_.TruthSigma(clip, frame);
+    if (tilt && sigma) {
+      row.tilt = *tilt, row.sigma = *sigma;
+    } else if (same_engine_) {  // the fields of another engine would not be those of these pictures
+      const sim::ClipRenderer renderer(SceneOf(config, true), PlanOf(config, true),
+                                       {config.seed, static_cast<uint64_t>(clip)});
+      const sim::FrameTruth truth = renderer.Truth(TimeOf(config, frame, frames));
+      row.tilt = truth.tilt, row.sigma = truth.sigma;
+    }
+    return row;
+  }
+
+  // Screens show sRGB: linear light would look dark.
+  cv::Mat ForTheEye(const dataset::Picture& frame) const {
+    return OutputIsLinear(config_.fixed()) ? sim::EncodeSrgb(frame.pixels) : frame.pixels;
+  }
+
+  static cv::Mat Small(const cv::Mat& image) {
+    const double scale = static_cast<double>(kGifFramePx) / std::max(image.cols, image.rows);
+    if (scale >= 1) return image;
+    cv::Mat small;
+    cv::resize(image, small, Scaled(image.size(), scale), 0, 0, cv::INTER_AREA);
+    return small;
+  }
+
+  dataset::DatasetReader reader_;
+  ConfigFile config_;
+  bool same_engine_;
+};
+
+}  // namespace
+
+void Preview(const PreviewOptions& options) {
+  const std::string extension = options.out.extension().string();
+  if (extension != ".png" && extension != ".gif")
+    throw std::invalid_argument("--out " + options.out.string() +
+                                ": must end in .png (contact sheet) or .gif (one clip moving)");
+  const Previewer previewer(options.folder);
+  if (extension == ".gif") {
+    dataset::WriteFileAtomically(options.out,
+                                 dataset::EncodeGif(previewer.Frames(options.clip), kGifDelayMs));
+  } else {
+    cv::Mat sheet;
+    previewer.Sheet(options.rows).convertTo(sheet, CV_32F, 1 / 255.0);
+    dataset::WriteFileAtomically(options.out, dataset::EncodePng(sheet, 8));
+  }
+}
+
+}  // namespace shimmer::app

@@ -1,0 +1,51 @@
+// Which files the clean frames of a data set come from: found once, byte-sorted, hashed, and recorded in
+// dataset.json.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "sim/app/config/config.h"
+#include "sim/dataset/frame_reader.h"
+#include "sim/dataset/sources.h"
+
+namespace shimmer::app {
+
+enum class SourceKind { kImages, kVideo, kSequence, kDrawn };
+
+class SourceList {
+ public:
+  // Relative patterns are looked up below config_folder, then below the working directory. What lies below
+  // out, where clips go, is no source. Throws ConfigError where nothing matches.
+  static SourceList Find(const SourceParams& source, const std::filesystem::path& config_folder,
+                         const std::filesystem::path& out);
+
+  SourceKind kind() const { return kind_; }
+  const std::vector<std::filesystem::path>& items() const { return items_; }  // empty for drawn scenes
+
+  // {"path": ..., "sha256": ...}. The path is relative to the config's folder for what lies in it, else
+  // absolute. The hash is of a file's bytes, or of the hashes of a sequence's frames; null for one that can't
+  // be read: its clips will fail, and say why.
+  const Json& Record(size_t item) const { return records_.at(item); }
+  const Json& Records() const { return records_; }  // an array, in the order of items()
+
+  // Throws std::runtime_error. A video's frames are counted once, by decoding it, for all clips that use it.
+  std::unique_ptr<dataset::FrameReader> Open(size_t item) const;
+
+ private:
+  struct FrameCounts {
+    std::mutex mutex;
+    std::map<size_t, int64_t> of_item;
+  };
+
+  SourceKind kind_ = SourceKind::kDrawn;
+  std::vector<std::filesystem::path> items_;
+  Json records_ = Json::array();
+  std::shared_ptr<FrameCounts> counts_ = std::make_shared<FrameCounts>();
+};
+
+}  // namespace shimmer::app

@@ -1,0 +1,63 @@
+#include "sim/dataset/dataset_folder.h"
+
+#include <fcntl.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "sim/dataset/dataset_difference.h"
+
+namespace shimmer::dataset {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// A folder without dataset.json must hold nothing but what a kill of ours at the very start may leave.
+void RefuseForeignFolder(const fs::path& folder) {
+  if (fs::exists(folder / kDescriptionName)) return;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name == kStagingName || name == kLockName || name == std::string(kDescriptionName) + ".new") continue;
+    throw std::invalid_argument(folder.string() + ": holds other files (" + name +
+                             ") and no data set; give a new or an empty folder");
+  }
+}
+
+}  // namespace
+
+FileHandle MakeAndLockFolder(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw std::invalid_argument(folder.string() + ": is a file, must be a folder");
+  MakeFolders(folder);
+  RefuseForeignFolder(folder);
+  FileHandle lock(folder / kLockName, O_CREAT | O_RDWR);
+  if (!lock.TryLock())
+    throw std::runtime_error(folder.string() +
+                             ": another process writes to this data set; wait for it to end");
+  return lock;
+}
+
+Json ReadDescription(const fs::path& folder) {
+  const fs::path path = folder / kDescriptionName;
+  if (!fs::exists(path))
+    throw std::runtime_error(folder.string() + ": not a data set (no " + kDescriptionName + " in it)");
+  Json description = Json::parse(ReadFile(path), nullptr, /*allow_exceptions=*/false);
+  if (!description.is_object()) throw std::runtime_error(path.string() + ": damaged, must be a JSON object");
+  return description;
+}
+
+void WriteDescription(const fs::path& folder, const Json& description) {
+  if (fs::exists(folder / kDescriptionName)) {
+    const Json there = ReadDescription(folder);
+    const std::vector<std::string> differences = Differences(there, description);
+    if (!differences.empty())
+      throw std::invalid_argument(folder.string() + ": holds a data set made from something else: " +
+                               InOneLine(differences) + ". Give another folder, or make the same again");
+    if (there == description) return;
+  }
+  const std::string text = description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  WriteFileAtomically(folder / kDescriptionName, AsBytes(text));
+}
+
+}  // namespace shimmer::dataset

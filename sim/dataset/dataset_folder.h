@@ -1,0 +1,29 @@
+// The files of a data set's folder that are no clips: dataset.json, manifest.jsonl, and what a writer needs
+// beside.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "sim/dataset/files.h"
+
+namespace shimmer::dataset {
+
+inline constexpr const char* kDescriptionName = "dataset.json";
+inline constexpr const char* kManifestName = "manifest.jsonl";
+inline constexpr const char* kStagingName = ".staging";  // clips that are being written; gone afterwards
+inline constexpr const char* kLockName = ".lock";        // empty; whoever writes holds a lock on it
+
+// Makes the folder if it is not there, and keeps other writers out for as long as the result lives.
+// Throws std::invalid_argument if it is a file, or holds files but no data set; std::runtime_error if another
+// process holds it, or if it can't be written.
+FileHandle MakeAndLockFolder(const std::filesystem::path& folder);
+
+// dataset.json. Throws std::runtime_error if it is not there or damaged.
+nlohmann::json ReadDescription(const std::filesystem::path& folder);
+
+// Writes dataset.json; one that is there must agree (dataset_difference.h), or else std::invalid_argument
+// names how not.
+void WriteDescription(const std::filesystem::path& folder, const nlohmann::json& description);
+
+}  // namespace shimmer::dataset

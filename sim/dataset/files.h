@@ -1,0 +1,70 @@
+// Files that are there or are not: bytes written, checked and synced before anyone relies on them.
+// Every function throws std::runtime_error with the path and the system's reason ("No space left on device").
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shimmer::dataset {
+
+// An open file of the system, closed when it goes.
+class FileHandle {
+ public:
+  // flags and mode as open(2) takes them; never follows into a child process.
+  FileHandle(const std::filesystem::path& path, int flags, unsigned mode = 0666);
+  ~FileHandle();
+  FileHandle(FileHandle&& other) noexcept;
+  FileHandle& operator=(FileHandle&& other) = delete;
+
+  void WriteAll(std::span<const uint8_t> bytes);
+  void StartSync();  // asks for it and does not wait; Sync() then has less to do
+  void Sync();
+  void Truncate(uint64_t bytes);
+  void Close();  // reports what the destructor would swallow
+  // Against other processes and other handles; false: another holds it. On a file system without locks (some
+  // cluster file systems) there is nothing to hold, and it is true.
+  bool TryLock();
+
+  size_t ReadSome(std::span<uint8_t> buffer);  // 0 at the end
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+};
+
+// Refuses what can't be a source: no such file, a folder, a device, an empty file.
+void RequireFile(const std::filesystem::path& path);
+
+// Creates or empties files, writes all bytes and syncs them. The caller gives names that are not final yet.
+// Many at once cost the disk fewer waits than one by one.
+struct FileToWrite {
+  std::filesystem::path path;
+  std::span<const uint8_t> bytes;
+};
+void WriteFiles(std::span<const FileToWrite> files);
+void WriteFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+// A file under its final name at once, or not at all: written and synced beside (path + ".new"), renamed,
+// folder synced.
+void WriteFileAtomically(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+std::vector<uint8_t> ReadFile(const std::filesystem::path& path);
+std::vector<uint8_t> ReadStart(const std::filesystem::path& path, size_t most_bytes);
+void ReadPieces(const std::filesystem::path& path,
+                const std::function<void(std::span<const uint8_t>)>& piece);
+
+// Replaces `to` where it is a file. Durable after SyncFolder of both parents.
+void Rename(const std::filesystem::path& from, const std::filesystem::path& to);
+void SyncFolder(const std::filesystem::path& folder);
+void MakeFolders(
+    const std::filesystem::path& folder);  // with parents, each synced into its own; no error if there
+void RemoveAll(const std::filesystem::path& path);  // no error if absent
+
+// Bytes of a text, for the functions above.
+std::span<const uint8_t> AsBytes(const std::string& text);
+
+}  // namespace shimmer::dataset

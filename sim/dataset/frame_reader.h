@@ -1,0 +1,41 @@
+// Clean frames from files: stills, numbered pictures, videos.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sim/dataset/image_io.h"
+
+namespace shimmer::dataset {
+
+// Frames 0 .. count() - 1, in any order (a video goes fastest forward). For one thread at a time.
+class FrameReader {
+ public:
+  virtual ~FrameReader() = default;
+  virtual int64_t count() = 0;
+
+  // Throws std::invalid_argument if frame is outside [0, count()), std::runtime_error for a file that can't
+  // be read, or whose size or number of channels differs from a frame read before.
+  virtual Picture Read(int64_t frame) = 0;
+
+  // What is odd about the source though it can be used; empty if nothing. Known once count() was asked for.
+  virtual std::string remark() const { return {}; }
+
+ protected:
+  static void RequireFrame(int64_t frame, int64_t count);  // throws "frame = 12, must be in [0, 9]"
+};
+
+std::unique_ptr<FrameReader> OpenStill(const std::filesystem::path& path);  // one frame
+std::unique_ptr<FrameReader> OpenSequence(
+    const std::filesystem::path& sequence);  // of SequenceFiles (sources.h)
+
+// Frames are decoded forward from the start, never sought: the same frame whatever was read before. 8-bit
+// RGB. count() decodes the video once, since headers lie; known_count, from an earlier reader of the file,
+// saves that.
+std::unique_ptr<FrameReader> OpenVideo(const std::filesystem::path& path,
+                                       std::optional<int64_t> known_count = {});
+
+}  // namespace shimmer::dataset

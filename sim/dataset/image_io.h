@@ -1,0 +1,82 @@
+// Pictures on disk and in memory. In memory: cv::Mat, float32, grey or RGB, [y][x][channel].
+//
+// Errors: std::runtime_error "PATH: what is wrong" for a file, std::invalid_argument for a wrong argument.
+// OpenImageIO's own threads are switched off for the whole process by the first call: callers run one clip a
+// thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shimmer::dataset {
+
+inline constexpr int kMaxSide_px = 32768;     // larger pictures are refused before memory is asked for
+inline constexpr float kMaxSample = 65504.f;  // largest half
+
+// ---- Reading
+// -----------------------------------------------------------------------------------------------------
+
+struct Picture {
+  cv::Mat pixels;              // CV_32FC1 or CV_32FC3 (RGB), upright (a camera's orientation tag is obeyed)
+  bool linear = false;         // values are linear light: EXR and other float formats
+  bool alpha_dropped = false;  // the file has an alpha channel, which is not in pixels
+  int64_t replaced =
+      0;  // samples that were NaN (now 0) or beyond +-kMaxSample, Inf included (now +-kMaxSample)
+};
+
+// Reads whatever OpenImageIO reads, its first picture where there are more; values as stored (no transfer
+// changed, colour not multiplied by alpha). Integers are scaled to [0, 1]: 8 bits v / 255.f, 16 bits v /
+// 65535.f. One channel (or one and alpha) is grey, R, G and B by name or else the first three of three or
+// more are RGB. Refused: no file, not a picture, cut off or otherwise damaged, two channels without alpha,
+// over kMaxSide_px.
+Picture ReadImage(const std::filesystem::path& path);
+
+// The named channels of a float file, in the order of the names, CV_32FC(n). Values as they are, NaN too.
+// Empty if one of them is not in the file.
+cv::Mat ReadChannels(const std::filesystem::path& path, std::span<const std::string> names);
+
+// Extensions of the files that ReadImage may read, lower case without dot ("png").
+const std::vector<std::string>& PictureExtensions();
+
+// ---- Writing
+// -----------------------------------------------------------------------------------------------------
+
+enum class FileFormat { kPng, kExr };
+
+struct Encoding {
+  FileFormat format = FileFormat::kPng;
+  int bits = 8;  // PNG: 8 or 16. EXR: 16 (half) or 32 (float)
+};
+
+// The samples that a file of this encoding holds, as CV_8U, CV_16U, CV_16F or CV_32F with the channels of
+// image:
+//   PNG: image in [0, 1] (clamped, NaN is 0) times 255 or 65535, to the nearest integer, ties to the even
+//   one; EXR: NaN is 0, clamped to +-kMaxSample; half to the nearest, ties to even.
+// Throws std::invalid_argument if image is empty or not float32, or if the format has no such bits.
+cv::Mat ToSamples(const cv::Mat& image, Encoding encoding);
+
+// What reading a file with these samples gives: float32.
+cv::Mat FromSamples(const cv::Mat& samples);
+
+// FromSamples(ToSamples(image)): exactly what ReadImage gives back of the written image.
+cv::Mat Quantise(const cv::Mat& image, Encoding encoding);
+
+// A whole file as bytes; the same bytes for the same picture, on any day.
+// PNG: 1 or 3 channels, no colour chunk. EXR: zips compression, one name a channel.
+std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits);
+std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const std::string> channels);
+
+// A frame: PNG, or EXR with the channels Y or R, G, B.
+std::vector<uint8_t> EncodeImage(const cv::Mat& image, Encoding encoding);
+
+// An animation that repeats for ever; frames: CV_8UC3 RGB of one size; each shown for delay_ms, rounded to 10
+// ms.
+std::vector<uint8_t> EncodeGif(std::span<const cv::Mat> frames, int delay_ms);
+
+const char* Extension(FileFormat format);  // "png", "exr"
+
+}  // namespace shimmer::dataset

@@ -1,0 +1,35 @@
+// How a ladder's levels (sim/level_ladder.h) are mixed for a sigma between them: the least squares behind the
+// fast blur.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace shimmer::sim {
+
+struct BlurLevel {
+  double variance_px2;  // sigma^2
+  int spacing_px;       // of its grid: 1, 2, 4, ... px; values between are a cubic B-spline's
+  std::vector<double>
+      kernel;  // spacing 1: of the whole blur, from the frame; else from the level before it (level 0
+               // for the first coarse one), on the grid of that level. Half: w[0], w[1], ...
+};
+
+// A stretch of sigma^2 in which four levels are mixed with weights that are cubics in t:
+//   index 0: sigma^2 in [0, 1/16), t = 16 sigma^2;  index i > 0: sigma^2 in 2^(i - 5) [1, 2), t its place
+//   there, in [0, 1).
+struct BlurMixture {
+  std::array<int, 4> level;  // numbers of the levels; at least two distinct from the others
+  std::array<std::array<double, 4>, 4> weight;  // [which of the four][power of t]; they sum to 1 for every t
+};
+
+// The mixtures from sigma 0 up to the last level's sigma. levels: at least four, as a LevelLadder makes them.
+std::vector<BlurMixture> MakeMixtures(const std::vector<BlurLevel>& levels);
+
+// What a cubic B-spline on a grid of this spacing adds to the variance, in px^2.
+double SplineVariance(int spacing_px);
+
+// Half of a level's kernel: the sampled Gaussian, cut off where 7e-6 of the light is left.
+std::vector<double> LevelKernel(double sigma);
+
+}  // namespace shimmer::sim
