@@ -13,6 +13,9 @@
 
 namespace shimmer::sim {
 
+inline constexpr double kPerlinRms = 0.157;          // of 11 octaves, persistence 0.5
+inline constexpr double kTiltRmsOfStrength = 0.247;  // of 8 octaves, persistence 0.5, along one axis
+
 // The Perlin part of the map, for one clip. Any order, any thread, same bits.
 class BlurNoise {
  public:

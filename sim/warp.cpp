@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "sim/bicubic.h"
+
 namespace shimmer::sim {
 namespace {
 
@@ -74,6 +76,7 @@ void WithKernel(Interpolation interpolation, const F& f) {
 
 void WarpRow(const cv::Mat& frame, cv::Point first, std::span<const float> dx, std::span<const float> dy,
              Interpolation interpolation, float* out) {
+  if (interpolation == Interpolation::kBicubic) return BicubicRow(frame, first, dx, dy, out);
   WithKernel(interpolation, [&]<class Kernel>() {
     if (frame.channels() == 1)
       WarpRowWith<Kernel, 1>(frame, first, dx, dy, out);

@@ -8,9 +8,9 @@
 
 namespace shimmer::sim {
 
-// How far from floor(place) an interpolation reads, in px: a margin of ceil(|d|) + kWarpReachPx is always
-// enough.
-inline constexpr int kWarpReachPx = 2;
+// A margin of ceil(|d|) + kWarpReachPx px is always enough: an interpolation reads up to two px from
+// floor(place), and its vectors of four one float more.
+inline constexpr int kWarpReachPx = 3;
 
 // out pixel i = frame at (first.x + i + dx[i], first.y + dy[i]), i < dx.size(); integer and fraction are kept
 // apart. frame: CV_32FC1 or CV_32FC3; out: that many channels a pixel. Catmull-Rom for kBicubic (it over- and

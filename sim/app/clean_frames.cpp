@@ -49,6 +49,7 @@ CleanFrames::CleanFrames(const SourceList& sources, const Config& config, sim::C
       sim::DrawInteger(key, "source.item", 0, static_cast<int64_t>(sources.items().size()) - 1));
   record_.update(sources.Record(item_));
   reader_ = sources.Open(item_);
+  if (const std::string remark = sources.Remark(item_); !remark.empty()) record_["remark"] = remark;
   if (still()) return;
 
   const int64_t needed = config.first_frame + config.frames, spare = reader_->count() - needed;

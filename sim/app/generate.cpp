@@ -62,13 +62,12 @@ std::vector<int64_t> ClipsToMake(const GenerateOptions& options, int64_t clips,
                                  const dataset::DatasetWriter& writer) {
   const std::set<int64_t> done = writer.done(), failed = writer.failed();
   std::vector<int64_t> pending;
-  const auto add = [&](int64_t clip) {
-    if (!done.contains(clip) && !failed.contains(clip)) pending.push_back(clip);
-  };
   if (options.only_clips.empty()) {
-    for (int64_t clip = 0; clip < clips; ++clip) add(clip);
-  } else {
-    for (int64_t clip : std::set<int64_t>(options.only_clips.begin(), options.only_clips.end())) add(clip);
+    for (int64_t clip = 0; clip < clips; ++clip)
+      if (!done.contains(clip) && !failed.contains(clip)) pending.push_back(clip);
+  } else {  // a failed clip that is asked for by its number is tried again
+    for (int64_t clip : std::set<int64_t>(options.only_clips.begin(), options.only_clips.end()))
+      if (!done.contains(clip)) pending.push_back(clip);
   }
   return pending;
 }
@@ -98,7 +97,8 @@ int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
   const auto threads = options.threads > 0 ? static_cast<size_t>(options.threads)
                                            : static_cast<size_t>(tbb::info::default_concurrency());
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  Progress progress(static_cast<int64_t>(pending.size()), 0, options.quiet);
+  const auto finished = static_cast<int64_t>(writer.done().size());
+  Progress progress(finished + static_cast<int64_t>(pending.size()), finished, options.quiet);
   const auto start = std::chrono::steady_clock::now();
 
   // Clips are made on all threads and written in their order, so that the manifest is the same however many

@@ -96,12 +96,19 @@ std::unique_ptr<dataset::FrameReader> SourceList::Open(size_t item) const {
     case SourceKind::kVideo:
       break;
   }
-  const std::lock_guard guard(counts_->mutex);
-  const auto known = counts_->of_item.find(item);
-  if (known != counts_->of_item.end()) return dataset::OpenVideo(items_.at(item), known->second);
+  const std::lock_guard guard(videos_->mutex);
+  const auto known = videos_->of_item.find(item);
+  if (known != videos_->of_item.end()) return dataset::OpenVideo(items_.at(item), known->second.frames);
   auto reader = dataset::OpenVideo(items_.at(item));
-  counts_->of_item[item] = reader->count();
+  const int64_t frames = reader->count();
+  videos_->of_item[item] = {frames, reader->remark()};
   return reader;
+}
+
+std::string SourceList::Remark(size_t item) const {
+  const std::lock_guard guard(videos_->mutex);
+  const auto known = videos_->of_item.find(item);
+  return known == videos_->of_item.end() ? "" : known->second.remark;
 }
 
 }  // namespace shimmer::app

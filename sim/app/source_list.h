@@ -36,16 +36,23 @@ class SourceList {
   // Throws std::runtime_error. A video's frames are counted once, by decoding it, for all clips that use it.
   std::unique_ptr<dataset::FrameReader> Open(size_t item) const;
 
+  // What is odd about a video that has been opened; empty if nothing.
+  std::string Remark(size_t item) const;
+
  private:
-  struct FrameCounts {
+  struct VideoFacts {
+    int64_t frames = 0;
+    std::string remark;
+  };
+  struct KnownVideos {
     std::mutex mutex;
-    std::map<size_t, int64_t> of_item;
+    std::map<size_t, VideoFacts> of_item;
   };
 
   SourceKind kind_ = SourceKind::kDrawn;
   std::vector<std::filesystem::path> items_;
   Json records_ = Json::array();
-  std::shared_ptr<FrameCounts> counts_ = std::make_shared<FrameCounts>();
+  std::shared_ptr<KnownVideos> videos_ = std::make_shared<KnownVideos>();
 };
 
 }  // namespace shimmer::app

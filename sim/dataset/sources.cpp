@@ -35,8 +35,11 @@ std::vector<fs::path> Find(std::span<const std::string> patterns, std::span<cons
     for (const fs::path& base : bases) {
       matches = lookup(base, pattern);
       if (!matches.empty() || fs::path(pattern).is_absolute()) break;
-      places += (places.empty() ? "; looked in " : " and ") +
-                fs::absolute(base.empty() ? "." : base).lexically_normal().string();
+      const std::string place = fs::absolute(base.empty() ? "." : base).lexically_normal().string();
+      if (places.empty())
+        places = "; looked in " + place;
+      else if (!places.ends_with(" " + place))
+        places += " and " + place;
     }
     if (matches.empty()) throw std::runtime_error("'" + pattern + "': nothing found" + places);
     for (const fs::path& match : matches) found.push_back(match.lexically_normal());

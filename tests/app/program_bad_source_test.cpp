@@ -74,6 +74,13 @@ TEST(BadSources, AreNotedAndTheRestFinish) {
   const auto before = Tree(folder / "set");
   ExpectOneLine(Generate(folder, "c.json", "set"), 1, {" clips failed"});
   EXPECT_EQ(Tree(folder / "set"), before);
+  // One that is asked for by its number is tried once more.
+  const auto failed = dataset::DatasetReader(folder / "set").failed();
+  const size_t lines = ManifestLines(folder / "set").size();
+  ExpectOneLine(Generate(folder, "c.json", "set", {"--clip", std::to_string(*failed.begin())}), 1,
+                {" clips failed"});
+  EXPECT_EQ(ManifestLines(folder / "set").size(), lines + 1);
+  EXPECT_EQ(dataset::DatasetReader(folder / "set").failed(), failed);
 }
 
 TEST(BadSources, UnreadableFile) {

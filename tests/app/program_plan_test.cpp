@@ -27,8 +27,8 @@ TEST_F(Plans, ShowWhatIsSkipped) {
   EXPECT_TRUE(full.at("read_once"));  // a drawn scene is a still
   EXPECT_FALSE(full.at("render_once"));
   EXPECT_FALSE(full.at("linear_light"));
-  // Strength 5 and the cubic's reach; five sigma of the level beyond 1 px (1.41 px) and four px of its spline.
-  EXPECT_EQ(full.at("halo_px"), 5 + 2 + 12);
+  // Strength 5 and the warp's reach; six sigma, as the exact Gaussian has it.
+  EXPECT_EQ(full.at("halo_px"), 5 + 3 + 6);
 
   EXPECT_TRUE(PlanOf({{"tilt", {{"strength_px", 0}}}}).at("plan").at("tilt").is_null());
   EXPECT_TRUE(PlanOf({{"blur", {{"max_sigma_px", 0}}}}).at("plan").at("blur").is_null());

@@ -84,12 +84,12 @@ TEST(PlanClip, MarginsHoldEveryRead) {
   scene.tilt.strength_px = 4.5, scene.blur.max_sigma_px = 3;
   scene.blur.method = BlurMethod::kExact;
   const ClipPlan plan = PlanClip(scene, kShape, {});
-  EXPECT_EQ(plan.tilt->margin_px, 7);
+  EXPECT_EQ(plan.tilt->margin_px, 8);
   EXPECT_EQ(plan.blur->margin_px, 18);
-  EXPECT_EQ(plan.halo_px, 25);
+  EXPECT_EQ(plan.halo_px, 26);
   scene.tilt.kernel = 0.5;  // |n| reaches 1.084: 4.88 px
   scene.tilt.strength_px = 5;
-  EXPECT_EQ(PlanClip(scene, kShape, {}).tilt->margin_px, 8);
+  EXPECT_EQ(PlanClip(scene, kShape, {}).tilt->margin_px, 9);
 }
 
 TEST(PlanClip, IsAValue) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <hwy/targets.h>
 #include <vector>
 
 #include "noise/hash.h"
@@ -59,6 +60,19 @@ TEST_P(Warp, AConstantStaysConstant) {
   for (int x = 0; x < 20; ++x) dx[x] = 0.05f * x - 0.5f, dy[x] = 0.07f * x;
   WarpRow(frame, {kHalo, kHalo}, dx, dy, interpolation(), out.data());
   for (float v : out) EXPECT_NEAR(v, 0.7f, 3e-7f);
+}
+
+TEST_P(Warp, IsTheSameOnEveryTarget) {
+  const cv::Mat frame = SinesPicture({37, 3}, kHalo, channels());
+  std::vector<float> dx(37), dy(37), out(37 * channels()), first;
+  for (int x = 0; x < 37; ++x) dx[x] = 0.37f * x - 7, dy[x] = 5 - 0.29f * x;
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    WarpRow(frame, {kHalo, kHalo + 1}, dx, dy, interpolation(), out.data());
+    if (first.empty()) first = out;
+    EXPECT_EQ(out, first) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 // What each interpolation loses on the analytic picture: against the function itself. Curvature there is
