@@ -14,7 +14,8 @@ shimmer=build/release/bin/shimmer
 config=configs/demo_drawn.json
 [ -e /usr/share/backgrounds/life_by_Aitzol_Berasategi.jpg ] && [ -e /usr/share/wallpapers/Path ] && config=configs/demo_photos.json
 
-"$shimmer" generate "$config" --out "$out/dataset"
-"$shimmer" preview "$out/dataset" --out "$out/sheet.png"
-"$shimmer" preview "$out/dataset" --out "$out/clip.gif"
+dataset=$out/$(basename "$config" .json)
+"$shimmer" generate "$config" --out "$dataset"
+"$shimmer" preview "$dataset" --out "$out/sheet.png"
+"$shimmer" preview "$dataset" --out "$out/clip.gif"
 echo "Look at $out/sheet.png and $out/clip.gif"

@@ -74,7 +74,7 @@ cv::Mat ClipRenderer::ComputeSigma(int64_t t, const Shifts& shifts) const {
                   sigma);
     }
   });
-  return cv::min(map, blur.max_sigma_px);  // rounding: the margin holds this much and no more
+  return cv::min(map, blur.max_sigma_px);  // rounding: the margin holds float(max_sigma_px) and no more
 }
 
 FrameTruth ClipRenderer::TruthOf(const Shifts& shifts, const cv::Mat& sigma) const {

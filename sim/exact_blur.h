@@ -1,5 +1,5 @@
 // The exact spatially varying Gaussian: each output pixel gathers with its own kernel, in double. The truth
-// that faster blurs are measured against, and the default until they are there.
+// that faster blurs are measured against.
 #pragma once
 
 #include <opencv2/core.hpp>

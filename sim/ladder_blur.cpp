@@ -29,7 +29,7 @@ class LevelRows {
 void FineRow(const cv::Mat& plane, const std::vector<float>& weights, int y, int x0, std::span<float> out,
              std::vector<float>& scratch) {
   const int radius = static_cast<int>(weights.size()) - 1;
-  std::array<const float*, 16> before, after;
+  std::array<const float*, kMostFineTaps> before, after;
   const auto at = [&](int row) { return plane.ptr<float>(row) + x0 - radius; };
   for (int k = 1; k <= radius; ++k) before[k] = at(y - k), after[k] = at(y + k);
   scratch.resize(out.size() + 2 * static_cast<size_t>(radius));

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 
 namespace shimmer::sim {
 namespace {
 
 constexpr size_t kLeastLevels = 4;  // for a mixture of four
-constexpr size_t kMostLevels = 15;  // for sigma 32 px
 constexpr int kCoarsestPx = 16;     // spacing of the coarsest grid
 
 // A sigma of at least 1.4 grid steps.
@@ -31,6 +31,8 @@ std::vector<BlurLevel> MakeLevels(size_t count) {
     const BlurLevel& from = spacing > 1 && levels.back().spacing_px > 1 ? levels.back() : levels.front();
     const double done = from.variance_px2 - SplineVariance(from.spacing_px),
                  wanted = variance - SplineVariance(spacing);
+    if (spacing == 1 && LevelKernel(std::sqrt(wanted - done)).size() > kMostFineTaps)
+      throw std::logic_error("a fine level's kernel is too long");
     levels.push_back({variance, spacing, LevelKernel(std::sqrt(wanted - done) / from.spacing_px)});
   }
   return levels;

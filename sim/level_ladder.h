@@ -16,8 +16,14 @@
 namespace shimmer::sim {
 
 // What mixing loses against each pixel's own Gaussian: RMS over a photograph, in 1/255 of the range, at any
-// sigma (tests/sim/ladder_blur_test.cpp; the largest measured is 0.065).
+// sigma (tests/sim/ladder_blur_test.cpp; the largest measured is 0.071).
 inline constexpr double kLadderErrorLevels = 0.1;
+// The same where the result is encoded as sRGB afterwards, which makes more of errors in the dark: the
+// largest measured is 0.19, on a photograph darkened to its square.
+inline constexpr double kLadderErrorLevelsEncoded = 0.3;
+
+inline constexpr size_t kMostLevels = 15;    // of a ladder to 32 px
+inline constexpr size_t kMostFineTaps = 16;  // of half a kernel of a level on the frame's own grid
 
 class LevelLadder {
  public:

@@ -10,7 +10,6 @@
 
 namespace shimmer::sim {
 
-inline constexpr int kMostLevels = 16;
 inline constexpr size_t kRowMultiple =
     16;  // rows below are a multiple of so many floats, whatever the vector's length
 

@@ -16,16 +16,20 @@ TiltPlan PlanTilt(const TiltParams& tilt) {
 }
 
 // The fastest way within the budget.
-BlurWay WayOf(const BlurParams& blur, const Accuracy& accuracy) {
+BlurWay WayOf(const BlurParams& blur, bool linear_light, const Accuracy& accuracy) {
   if (blur.method == BlurMethod::kStack) return BlurWay::kStack;
-  const bool exact = blur.method == BlurMethod::kExact || accuracy.max_error_levels < kLadderErrorLevels;
+  const bool exact =
+      blur.method == BlurMethod::kExact ||
+      accuracy.max_error_levels < (linear_light ? kLadderErrorLevelsEncoded : kLadderErrorLevels);
   return exact ? BlurWay::kExact : BlurWay::kLadder;
 }
 
-BlurPlan PlanBlur(const BlurParams& blur, const std::optional<TiltPlan>& tilt, const Accuracy& accuracy) {
-  BlurPlan plan{.way = WayOf(blur, accuracy)};
-  plan.margin_px = plan.way == BlurWay::kLadder ? LevelLadder::For(blur.max_sigma_px).margin_px()
-                                                : GaussianRadius(blur.max_sigma_px);
+BlurPlan PlanBlur(const BlurParams& blur, const std::optional<TiltPlan>& tilt, bool linear_light,
+                  const Accuracy& accuracy) {
+  BlurPlan plan{.way = WayOf(blur, linear_light, accuracy)};
+  plan.margin_px = plan.way == BlurWay::kLadder
+                       ? LevelLadder::For(blur.max_sigma_px).margin_px()
+                       : GaussianRadius(static_cast<float>(blur.max_sigma_px));  // sigmas are float32
   const bool varies = blur.max_sigma_px > blur.min_sigma_px;
   plan.noise = varies && blur.tilt_weight < 1;
   plan.tilt = varies && blur.tilt_weight > 0 && tilt;
@@ -55,7 +59,7 @@ ClipPlan PlanClip(const Scene& scene, const ClipShape& shape, const Accuracy& ac
   plan.linear_light = scene.colour == Colour::kLinear;
   plan.read_once = scene.still;
   if (scene.tilt.strength_px > 0) plan.tilt = PlanTilt(scene.tilt);
-  if (scene.blur.max_sigma_px > 0) plan.blur = PlanBlur(scene.blur, plan.tilt, accuracy);
+  if (scene.blur.max_sigma_px > 0) plan.blur = PlanBlur(scene.blur, plan.tilt, plan.linear_light, accuracy);
   plan.render_once = scene.still && (!plan.tilt || plan.tilt->frozen) && (!plan.blur || plan.blur->frozen);
   plan.halo_px = (plan.tilt ? plan.tilt->margin_px : 0) + (plan.blur ? plan.blur->margin_px : 0);
   return plan;

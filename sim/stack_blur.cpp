@@ -51,13 +51,18 @@ cv::Mat GaussianBlur(const cv::Mat& frame, double sigma_px, int border_px) {
 }
 
 BlurStack::BlurStack(const cv::Mat& frame, double min_sigma_px, double max_sigma_px)
-    : min_sigma_px_(min_sigma_px), step_px_((max_sigma_px - min_sigma_px) / (kStackLevels - 1)) {
+    : min_sigma_px_(min_sigma_px),
+      max_sigma_px_(max_sigma_px),
+      step_px_((max_sigma_px - min_sigma_px) / (kStackLevels - 1)) {
   const int border_px = GaussianRadius(max_sigma_px);
   for (int level = 0; level < kStackLevels; ++level)
     levels_.push_back(GaussianBlur(frame, sigma_px(level), border_px));
 }
 
-double BlurStack::sigma_px(int level) const { return min_sigma_px_ + step_px_ * level; }
+// Rounding must not carry the last level beyond the maximum, for which the border is made.
+double BlurStack::sigma_px(int level) const {
+  return std::min(min_sigma_px_ + step_px_ * level, max_sigma_px_);
+}
 
 void BlurStack::Row(cv::Point first, std::span<const float> sigma_px, LevelChoice choice, float* out) const {
   const int channels = levels_[0].channels();

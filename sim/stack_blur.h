@@ -24,7 +24,7 @@ class BlurStack {
   double sigma_px(int level) const;
 
  private:
-  double min_sigma_px_, step_px_;
+  double min_sigma_px_, max_sigma_px_, step_px_;
   std::vector<cv::Mat> levels_;  // without the border
 };
 

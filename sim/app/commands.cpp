@@ -49,7 +49,7 @@ int Report(const std::string& message, int exit_code) {
 
 }  // namespace
 
-int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& stop) {
+int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*listen)()) {
   CLI::App app("Paired clips seen through atmospheric turbulence, from clean pictures and one config file.",
                "shimmer");
   app.set_version_flag("--version", kVersion);
@@ -99,7 +99,7 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& stop)
   try {
     if (argc > 1 && argv[1][0] != '-') RequireCommand(app, argv[1]);
     app.parse(argc, argv);
-    if (*generate_command) return config_path = &generate.config, Generate(generate, stop);
+    if (*generate_command) return config_path = &generate.config, Generate(generate, listen());
     if (*plan_command) config_path = &plan_config, Print(PlanText(plan_config, plan_sets, plan_clip));
     if (*preview_command) Preview(preview);
     if (*keys_command) Print(KeysHelpText());

@@ -55,6 +55,8 @@ Outcome TryToMake(const Job& job, int64_t clip, const std::atomic<bool>& stop) {
   } catch (...) {
     outcome.run_ends = std::current_exception();
   }
+  // Asked to stop, a read may break off: that is no fault of its source.
+  if (stop && !outcome.made) outcome.interrupted = true;
   return outcome;
 }
 
@@ -113,12 +115,14 @@ int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
   const auto make = [&](int64_t clip) {
     return tbb::this_task_arena::isolate([&] { return TryToMake(job, clip, stop); });
   };
+  std::string first_error;
   const auto keep = [&](Outcome& outcome) {
     if (outcome.run_ends) std::rethrow_exception(outcome.run_ends);
     if (outcome.made) {
       writer.Commit(outcome.clip, outcome.made->files, std::move(outcome.made->line));
     } else {
       outcome.line["error"] = outcome.error;
+      if (first_error.empty()) first_error = outcome.error;
       writer.Fail(outcome.clip, std::move(outcome.line));
     }
     progress.Clip(!outcome.made);
@@ -149,8 +153,9 @@ int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
                 DurationText(seconds).c_str());
   if (stop) return kExitInterrupted;
   if (failed > 0)
-    std::fprintf(stderr, "shimmer: %s: %lld clips failed; \"error\" of their lines says why\n",
-                 (options.out / "manifest.jsonl").c_str(), static_cast<long long>(failed));
+    std::fprintf(stderr, "shimmer: %s: %lld clips failed, %s; \"error\" of their lines says why\n",
+                 (options.out / "manifest.jsonl").c_str(), static_cast<long long>(failed),
+                 first_error.empty() ? "all in an earlier run" : ("the first with: " + first_error).c_str());
   return failed > 0 ? kExitFailed : kExitDone;
 }
 

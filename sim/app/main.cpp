@@ -14,8 +14,14 @@ void AskToStop(int) { stop = true; }
 void ListenTo(int signal) {
   struct sigaction action = {};
   action.sa_handler = AskToStop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(signal, &action, nullptr);
+}
+
+const std::atomic<bool>& ListenToSignals() {
+  ListenTo(SIGINT);
+  ListenTo(SIGTERM);
+  return stop;
 }
 
 // OpenCV prints what it also throws.
@@ -24,8 +30,6 @@ int PrintNothing(int, const char*, const char*, const char*, int, void*) { retur
 }  // namespace
 
 int main(int argc, char** argv) {
-  ListenTo(SIGINT);
-  ListenTo(SIGTERM);
   cv::redirectError(PrintNothing);
-  return shimmer::app::RunShimmer(argc, argv, stop);
+  return shimmer::app::RunShimmer(argc, argv, ListenToSignals);
 }

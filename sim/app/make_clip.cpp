@@ -85,6 +85,7 @@ MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, J
   const Config config = job.config.Draw(static_cast<uint64_t>(clip), &line["drawn"]);
   const sim::ClipKey key{config.seed, static_cast<uint64_t>(clip)};
   CleanFrames clean(job.sources, config, key);
+  line["source"] = clean.record();  // so far, should a frame turn out to be bad
   const sim::Scene scene = SceneOf(config, clean.still());
   const sim::ClipPlan plan = PlanOf(config, clean.still());
   const sim::ClipRenderer renderer(scene, plan, key);

@@ -1,6 +1,7 @@
 #include "sim/app/preview.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -117,10 +118,14 @@ class Previewer {
 }  // namespace
 
 void Preview(const PreviewOptions& options) {
-  const std::string extension = options.out.extension().string();
+  std::string extension = options.out.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   if (extension != ".png" && extension != ".gif")
     throw std::invalid_argument("--out " + options.out.string() +
                                 ": must end in .png (contact sheet) or .gif (one clip moving)");
+  if (extension == ".png" && options.clip >= 0)
+    throw std::invalid_argument(
+        "--clip goes with an --out that ends in .gif; a contact sheet shows clips of the whole set");
   const Previewer previewer(options.folder);
   if (extension == ".gif") {
     dataset::WriteFileAtomically(options.out,

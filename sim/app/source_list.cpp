@@ -36,10 +36,17 @@ Json RecordOf(const fs::path& item, const std::string& name, SourceKind kind) {
   return {{"path", Json::parse(path)}, {"sha256", hash}};
 }
 
-fs::path Place(const fs::path& path) { return fs::absolute(path.empty() ? "." : path).lexically_normal(); }
+// One spelling for each place, whatever links lead to its folder. (A link that is itself a source stays one.)
+fs::path Place(const fs::path& path) {
+  const fs::path absolute = fs::absolute(path.empty() ? "." : path).lexically_normal();
+  const fs::path whole = absolute.has_filename() ? absolute : absolute.parent_path();
+  return fs::weakly_canonical(whole.parent_path()) / whole.filename();
+}
+
+fs::path FolderPlace(const fs::path& folder) { return fs::weakly_canonical(folder.empty() ? "." : folder); }
 
 bool LiesIn(const fs::path& folder, const fs::path& item) {
-  const fs::path from_folder = Place(item).lexically_relative(Place(folder));
+  const fs::path from_folder = Place(item).lexically_relative(FolderPlace(folder));
   return !from_folder.empty() && *from_folder.begin() != "..";
 }
 
@@ -47,7 +54,7 @@ bool LiesIn(const fs::path& folder, const fs::path& item) {
 // command is given, and wherever config and pictures are moved together.
 std::string NameOf(const fs::path& item, const fs::path& config_folder) {
   const fs::path place = Place(item);
-  return LiesIn(config_folder, item) ? place.lexically_relative(Place(config_folder)) : place;
+  return LiesIn(config_folder, item) ? place.lexically_relative(FolderPlace(config_folder)) : place;
 }
 
 }  // namespace
@@ -76,7 +83,10 @@ SourceList SourceList::Find(const SourceParams& source, const fs::path& config_f
   for (const fs::path& item : list.items_)
     if (!LiesIn(out, item)) named.emplace_back(NameOf(item, config_folder), item);
   if (named.empty()) throw ConfigError(key, "finds nothing but what lies in --out " + out.string());
-  std::ranges::sort(named);  // by the bytes of the name: which source a clip takes hangs on the order
+  // By the bytes of the name, each name once: which source a clip takes hangs on the order.
+  std::ranges::sort(named);
+  const auto repeats = std::ranges::unique(named, {}, &std::pair<std::string, fs::path>::first);
+  named.erase(repeats.begin(), repeats.end());
   list.items_.clear();
   for (const auto& [name, item] : named) {
     list.items_.push_back(item);

@@ -55,8 +55,8 @@ std::vector<std::string> Differences(const Json& there, const Json& here) {
 
   const Json old_digits = there.value("pair_digits", Json()), new_digits = here.value("pair_digits", Json());
   if (old_digits != new_digits)
-    differences.push_back("the numbers in file names have " + old_digits.dump() + " digits there and would have " +
-                          new_digits.dump() + " here");
+    differences.push_back("the numbers in file names have " + old_digits.dump() +
+                          " digits there and would have " + new_digits.dump() + " here");
 
   const Json old_engine = there.value("engine", Json()), new_engine = here.value("engine", Json());
   if (old_engine != new_engine)
@@ -70,7 +70,7 @@ std::vector<std::string> Differences(const Json& there, const Json& here) {
       differences.push_back("source " + path + " was added");
     else if (new_hash == new_hashes.end())
       differences.push_back("source " + path + " is gone");
-    else if (old_hash->second != new_hash->second)
+    else if (!old_hash->second.empty() && !new_hash->second.empty() && old_hash->second != new_hash->second)
       differences.push_back("source " + path + " has changed");
   }
   return differences;

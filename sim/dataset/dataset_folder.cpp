@@ -20,7 +20,7 @@ void RefuseForeignFolder(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     if (name == kStagingName || name == kLockName || name == std::string(kDescriptionName) + ".new") continue;
     throw std::invalid_argument(folder.string() + ": holds other files (" + name +
-                             ") and no data set; give a new or an empty folder");
+                                ") and no data set; give a new or an empty folder");
   }
 }
 
@@ -43,7 +43,9 @@ Json ReadDescription(const fs::path& folder) {
   if (!fs::exists(path))
     throw std::runtime_error(folder.string() + ": not a data set (no " + kDescriptionName + " in it)");
   Json description = Json::parse(ReadFile(path), nullptr, /*allow_exceptions=*/false);
-  if (!description.is_object()) throw std::runtime_error(path.string() + ": damaged, must be a JSON object");
+  if (!description.is_object() || !description.value("config", Json()).is_object() ||
+      !description.value("sources", Json::array()).is_array())
+    throw std::runtime_error(path.string() + ": damaged, must be a JSON object with config and sources");
   return description;
 }
 
@@ -53,7 +55,7 @@ void WriteDescription(const fs::path& folder, const Json& description) {
     const std::vector<std::string> differences = Differences(there, description);
     if (!differences.empty())
       throw std::invalid_argument(folder.string() + ": holds a data set made from something else: " +
-                               InOneLine(differences) + ". Give another folder, or make the same again");
+                                  InOneLine(differences) + ". Give another folder, or make the same again");
     if (there == description) return;
   }
   const std::string text = description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -30,8 +30,8 @@ class DatasetWriter {
  public:
   // Opens or makes the folder. description: what dataset.json says (dataset_difference.h).
   // Throws std::invalid_argument: the folder holds other files, or a data set made from something else (each
-  // difference is named; `clips` may differ). Throws std::runtime_error: another process writes there; it can't
-  // be written; its manifest is damaged.
+  // difference is named; `clips` may differ). Throws std::runtime_error: another process writes there; it
+  // can't be written; its manifest is damaged.
   DatasetWriter(std::filesystem::path folder, Layout layout, const Json& description);
 
   ~DatasetWriter();

@@ -35,6 +35,7 @@ std::unique_ptr<OIIO::ImageInput> Open(const fs::path& path) {
   wish["oiio:UnassociatedAlpha"] = 1;
   auto input = OIIO::ImageInput::open(path.string(), &wish);
   if (!input) Fail(path, "not a picture that can be read (" + OIIO::geterror() + ")");
+  if (input->format_name() == std::string("FFmpeg movie")) Fail(path, "a video, must be a picture");
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.deep || spec.depth > 1) Fail(path, "a deep or volume picture, must be flat");
   if (spec.width < 1 || spec.height < 1) Fail(path, "a picture without pixels");

@@ -29,13 +29,8 @@ const char* FolderOf(FrameKind kind, LayoutKind layout) {
 
 void Layout::Validate() const {
   if (kind == LayoutKind::kSequence) return;
-  const bool plain =
-      !name.empty() && name[0] != '.' && name.size() <= 100 &&
-      std::ranges::none_of(name, [](unsigned char c) { return c == '/' || c == '\\' || c < 32; }) &&
-      name != "clips" && name != "dataset.json" && name != "manifest.jsonl";
-  if (!plain)
-    throw std::invalid_argument("name = \"" + name +
-                                "\", must be the name of a new folder: no '/', no dot in front");
+  if (!IsPlainFolderName(name))
+    throw std::invalid_argument("name = \"" + name + "\", must be a plain name of a folder");
   if (!(test_fraction >= 0 && test_fraction <= 1))
     throw std::invalid_argument("test_fraction = " + std::to_string(test_fraction) + ", must be in [0, 1]");
   if (frames_per_clip < 1) throw std::invalid_argument("frames_per_clip must be at least 1");
@@ -54,6 +49,13 @@ std::string Layout::Path(FrameKind frame_kind, int64_t clip, int64_t frame) cons
 
 std::string Layout::ClipFolder(int64_t clip) const {
   return kind == LayoutKind::kSequence ? "clips/" + Padded(clip, 6) : "";
+}
+
+bool IsPlainFolderName(const std::string& name) {
+  const auto bad = [](unsigned char c) { return c == '/' || c == '\\' || c < 0x20 || c == 0x7F; };
+  return !name.empty() && name.size() <= 100 && name[0] != '.' && name[0] != '-' &&
+         std::ranges::none_of(name, bad) && name != "clips" && name != "dataset.json" &&
+         name != "manifest.jsonl";
 }
 
 bool IsTestClip(int64_t clip, double test_fraction) {

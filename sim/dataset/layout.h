@@ -40,6 +40,10 @@ struct Layout {
   std::string ClipFolder(int64_t clip) const;
 };
 
+// A folder's name that no path, option or file of a data set can be taken for: 1 to 100 bytes, no '/', '\\'
+// or control characters, no '.' or '-' at its start, not "clips".
+bool IsPlainFolderName(const std::string& name);
+
 // Exactly a fraction of all clips, whatever their number: clip i is one iff floor((i + 1) f) > floor(i f).
 bool IsTestClip(int64_t clip, double test_fraction);
 

@@ -51,6 +51,24 @@ TEST(Target, IsTheSameFromAnyWorkingDirectory) {
   EXPECT_EQ(sources.at(0).at("path"), (folder / "else/b.png").string());
 }
 
+// However a picture's place is spelled, and however often: it is one source.
+TEST(Target, IsTheSameForEverySpellingOfASource) {
+  const TempFolder folder;
+  for (const char* name : {"a.png", "b.png", "c.png"})
+    WritePng(folder, std::string("in/") + name, dataset::RandomImage({40, 30}, 3, name[0]));
+  fs::create_directory_symlink(folder / "in", folder / "link");
+  folder.Put("c.json",
+             SmallConfig({{"clips", 6},
+                          {"source", {{"images", {"in/a.png", (folder / "in/*.png").string(), "link"}}}}}));
+  ExpectDone(Generate(folder, "c.json", "set"));
+  EXPECT_EQ(dataset::DatasetReader(folder / "set").description().at("sources").size(), 3u);
+  const auto before = Tree(folder / "set");
+  ExpectDone(Shimmer("/", {"generate", folder / "c.json", "--out", folder / "set", "--quiet"}));
+  EXPECT_EQ(Tree(folder / "set"), before);
+  ExpectDone(Shimmer("/", {"generate", folder / "c.json", "--out", folder / "other", "--quiet"}));
+  EXPECT_EQ(Tree(folder / "other"), before);
+}
+
 // What a run has made is no source of the next, though the pattern finds it.
 TEST(Target, BelowTheSourcesIsNoSource) {
   const TempFolder folder;

@@ -125,9 +125,20 @@ TEST(DatasetReader, WhatIsMissing) {
   EXPECT_TRUE(Contains(ErrorOf<std::runtime_error>([&] { DatasetReader again(folder.path()); }), "damaged"));
 }
 
+TEST(DatasetReader, DamagedDescription) {
+  for (const char* text :
+       {"", "7", "{}", "{\"config\":5}", "{\"config\":{},\"sources\":{}}", "{\"config\":{}"}) {
+    const TempFolder folder;
+    folder.Put("dataset.json", text);
+    EXPECT_TRUE(
+        Contains(ErrorOf<std::runtime_error>([&] { DatasetReader(folder.path()); }), "dataset.json: damaged"))
+        << text;
+  }
+}
+
 TEST(DatasetReader, DamagedManifestLines) {
   const TempFolder folder;
-  folder.Put("dataset.json", "{}");
+  folder.Put("dataset.json", "{\"config\":{}}");
   folder.Put("manifest.jsonl", "{\"clip\":0,\"status\":\"done\",\"files\":[{\"path\":7}]}\n");
   const DatasetReader reader(folder.path());
   EXPECT_TRUE(Contains(ErrorOf<std::runtime_error>([&] { reader.Files(0); }), "must have a path"));

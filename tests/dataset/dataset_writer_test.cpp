@@ -111,7 +111,7 @@ TEST(DatasetWriter, RefusesOtherNumbersInFileNames) {
   EXPECT_TRUE(Contains(ReasonOfRefusal(folder.path(), description), "6 digits there and would have 9 here"));
 }
 
-// A source that could not be read has no hash; it may stay so, and it has changed once it can be read.
+// A source that could not be read has no hash; it may stay so, and be read the next time.
 TEST(DatasetWriter, KnowsSourcesWithoutAHash) {
   const TempFolder folder;
   Json description = Description();
@@ -119,6 +119,8 @@ TEST(DatasetWriter, KnowsSourcesWithoutAHash) {
   EXPECT_EQ(ErrorOfOpening(folder.path(), description), "");
   EXPECT_EQ(ErrorOfOpening(folder.path(), description), "");
   description["sources"] = {{{"path", "bad.png"}, {"sha256", "00"}}};
+  EXPECT_EQ(ErrorOfOpening(folder.path(), description), "");
+  description["sources"] = {{{"path", "bad.png"}, {"sha256", "11"}}};
   EXPECT_TRUE(Contains(ReasonOfRefusal(folder.path(), description), "bad.png has changed"));
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A second run of setup.sh installs nothing and is quick; an unknown option is refused with one line and exit code 2.
+# A second run of setup.sh installs nothing and says nothing; an unknown option is refused with one line and exit code 2.
 set -u
 cd "${1:?root of the source tree}"
 scripts/setup.sh >/dev/null || { echo "setup.sh fails"; exit 1; }

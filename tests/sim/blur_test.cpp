@@ -146,6 +146,17 @@ TEST(BlurStack, EqualsTheExactBlurAtItsLevels) {
     }
 }
 
+TEST(BlurStack, LevelsEndAtTheMaximum) {
+  for (int i = 1; i <= 300; ++i)
+    for (double low : {0.03, 0.06, 0.11, 0.22}) {
+      const double high = std::max(low, i / 30.0);
+      const int border = GaussianRadius(high);
+      const BlurStack stack(cv::Mat(2 * border + 1, 2 * border + 1, CV_32F, cv::Scalar(1)), low, high);
+      EXPECT_LE(stack.sigma_px(kStackLevels - 1), high);
+      EXPECT_NEAR(stack.sigma_px(kStackLevels - 1), high, 1e-12);
+    }
+}
+
 TEST(BlurStack, ReadsBetweenLevelsAsToldAndClampsOutside) {
   const int border = GaussianRadius(10);
   const BlurStack stack(Impulse(9, border), 0, 10);

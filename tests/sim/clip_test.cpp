@@ -136,6 +136,24 @@ TEST(ClipRenderer, SkippingChangesNothing) {
             1e-6);
 }
 
+// Sigmas are float32, and evenly spaced levels are sums: neither may read beyond the margin that the plan
+// made. Seen by AddressSanitizer, and by the frame's edge, which nothing beyond may follow.
+TEST(ClipRenderer, StaysWithinItsMarginWhateverRoundingDoes) {
+  for (BlurMethod method : {BlurMethod::kExact, BlurMethod::kStack, BlurMethod::kAuto})
+    for (int sixths = 1; sixths <= 24; ++sixths)
+      for (double min_sigma_px : {0.0, 0.03, 0.07, 0.11, sixths / 6.0}) {
+        Scene scene;
+        scene.tilt.strength_px = 0;
+        scene.blur.method = method;
+        scene.blur.max_sigma_px = sixths / 6.0;
+        scene.blur.min_sigma_px = std::min(min_sigma_px, scene.blur.max_sigma_px);
+        const ClipPlan plan = PlanClip(scene, {.size = {3, 2}}, {});
+        EXPECT_GE(plan.halo_px, GaussianRadius(static_cast<float>(scene.blur.max_sigma_px))) << sixths;
+        const cv::Mat turb = RenderSines(scene, {3, 2}, 0).frame.turb;
+        EXPECT_TRUE(cv::checkRange(turb, true, nullptr, 0, 1)) << sixths;
+      }
+}
+
 TEST(ClipRenderer, SeedAndClipGiveOtherTurbulence) {
   const cv::Mat base = RenderSines({}, {30, 20}).frame.truth.tilt;
   EXPECT_FALSE(SameBytes(base, RenderSines({}, {30, 20}, 3, 3, {0, 1}).frame.truth.tilt));
@@ -170,6 +188,7 @@ TEST(ClipRenderer, StackIsNearTheExactBlur) {
 TEST(ClipRenderer, LinearLightIsDecodedAndEncoded) {
   Scene scene;
   scene.colour = Colour::kLinear;
+  scene.blur.method = BlurMethod::kExact;
   scene.tilt.strength_px = 0;
   scene.blur.min_sigma_px = scene.blur.max_sigma_px = 1.5;
   const cv::Size size(31, 22);

@@ -73,6 +73,9 @@ TEST(PlanClip, ChoosesTheBlurWithinTheBudget) {
   EXPECT_EQ(way(0.09), BlurWay::kExact);
   EXPECT_EQ(way(0.1), BlurWay::kLadder);
   EXPECT_EQ(way(255), BlurWay::kLadder);
+  scene.colour = Colour::kLinear;  // encoding makes more of errors in the dark
+  EXPECT_EQ(way(0.1), BlurWay::kExact);
+  EXPECT_EQ(way(0.3), BlurWay::kLadder);
   scene.blur.method = BlurMethod::kExact;
   EXPECT_EQ(way(255), BlurWay::kExact);
   scene.blur.method = BlurMethod::kStack;

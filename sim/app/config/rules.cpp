@@ -6,6 +6,7 @@
 
 #include "sim/app/config/distribution.h"
 #include "sim/app/config/keys.h"
+#include "sim/dataset/layout.h"
 
 namespace shimmer::app {
 namespace {
@@ -63,14 +64,11 @@ void CheckOutput(const OutputParams& output) {
                           std::to_string(bits[1]) + " where " + format_key.path + " is " +
                           format_key.field.names.at(static_cast<size_t>(output.format)));
   }
-  const std::string& name = output.name;
-  const bool plain =
-      name.front() != '.' && name.front() != '-' && name.find('/') == std::string::npos &&
-      std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
-  if (!plain)
-    throw ConfigError(KeyOf(all.name).pointer, "is " + Shown(name) +
-                                                   ", must be the plain name of a folder: no '/', no control "
-                                                   "characters, no '.' or '-' at its start");
+  if (!dataset::IsPlainFolderName(output.name))
+    throw ConfigError(KeyOf(all.name).pointer,
+                      "is " + Shown(output.name) +
+                          ", must be the plain name of a folder: no '/' nor '\\', no control "
+                          "characters, no '.' or '-' at its start, not \"clips\"");
 }
 
 }  // namespace
