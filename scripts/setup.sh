@@ -15,8 +15,8 @@ required=(
   python3
 )
 photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
-# Peers and tools that single tests use: the noise library that the paper names; readers of what we write.
-peers=(python3-noise python3-numpy python3-jsonschema python3-opencv python3-openimageio libimage-exiftool-perl)
+# Peers that single tests use: the noise library that the paper names; readers of what we write.
+peers=(python3-noise python3-numpy python3-jsonschema python3-openimageio)
 
 packages=("${required[@]}")
 for option in "$@"; do
