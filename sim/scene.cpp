@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/tilt_field.h"
-
 namespace shimmer::sim {
 
 void TiltParams::Validate() const {
@@ -11,7 +9,11 @@ void TiltParams::Validate() const {
   Fields(*this, check);
 }
 
-double TiltParams::BoundPx() const { return strength_px * std::max(1.0, KernelOf(*this).bound); }
+const noise::SimplexKernel& TiltParams::Kernel() const {
+  return kernel == noise::kSimplexKernel05.radius2 ? noise::kSimplexKernel05 : noise::kSimplexKernel06;
+}
+
+double TiltParams::BoundPx() const { return strength_px * std::max(1.0, Kernel().bound); }
 
 void BlurParams::Validate() const {
   RangeCheck check("blur");

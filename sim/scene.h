@@ -2,6 +2,7 @@
 // Each struct is a value with its defaults, declares its fields once, and checks itself.
 #pragma once
 
+#include "noise/simplex.h"
 #include "sim/fields.h"
 
 namespace shimmer::sim {
@@ -74,7 +75,8 @@ struct TiltParams {
                 .help = "how the clean frame is read between its pixels"},
           self.interpolation);
   }
-  void Validate() const;   // throws std::invalid_argument
+  void Validate() const;  // throws std::invalid_argument
+  const noise::SimplexKernel& Kernel() const;
   double BoundPx() const;  // on |d_a|
 };
 

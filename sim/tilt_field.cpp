@@ -14,7 +14,7 @@ noise::SimplexOctaves AxisOctaves(const TiltParams& tilt, ClipKey key, std::stri
                                    .lacunarity = tilt.lacunarity,
                                    .persistence = tilt.persistence,
                                    .peak = tilt.strength_px};
-  return {MakeOctaves(params, tilt.lattice, key, path), KernelOf(tilt)};
+  return {MakeOctaves(params, tilt.lattice, key, path), tilt.Kernel()};
 }
 
 }  // namespace
@@ -24,10 +24,6 @@ std::vector<noise::Octave> MakeOctaves(const noise::OctaveParams& params, Lattic
   if (lattice == LatticeKind::kSeeded) return noise::SeededOctaves(params, key.seed, key.clip, path);
   noise::HashStream stream(noise::HashPath(key.seed, key.clip, std::string(path) + ".origin"));
   return noise::ClassicOctaves(params, noise::RandomOrigin(stream));
-}
-
-const noise::SimplexKernel& KernelOf(const TiltParams& params) {
-  return params.kernel == noise::kSimplexKernel05.radius2 ? noise::kSimplexKernel05 : noise::kSimplexKernel06;
 }
 
 TiltField::TiltField(const TiltParams& params, ClipKey key)

@@ -33,8 +33,6 @@ class TiltField {
   noise::SimplexOctaves x_, y_;
 };
 
-const noise::SimplexKernel& KernelOf(const TiltParams& params);
-
 // The lattices of a clip's field, as the config's tilt.lattice says. path names the axis, "tilt.x" or "blur".
 std::vector<noise::Octave> MakeOctaves(const noise::OctaveParams& params, LatticeKind lattice, ClipKey key,
                                        std::string_view path);
