@@ -29,10 +29,10 @@ HWY_INLINE auto IsNegative(Bytes bytes) {
   return hn::RebindMask(ByteTag(), hn::Lt(hn::BitCast(d, bytes), hn::Zero(d)));
 }
 
-// A code says all of a corner's gradient . p that is not p: for gradient (a x + b y) / sqrt 2 and the like,
-//   bit 7: a is negative; bit 6: b is negative; bit 5: the first axis is y, not x; bit 4: the second is z,
-//   not y; bits 0-3: 3 (gradient . (corner's offset)) + 8, where the offset of a middle corner from corner 0
-//   is in thirds.
+// A code says all of a corner's gradient . p but p itself. A gradient has one sign along each of two axes:
+//   bit 7: the first is negative; bit 6: the second is; bit 5: the first axis is y, not x; bit 4: the second
+//   is z, not y; bits 0-3: 8 + 3 (gradient . o), o the vector from a middle corner to corner 0, a whole
+//   number.
 struct CodeTables {
   alignas(16) uint8_t plain[16], first[3][16], last[3][16];
 };
@@ -49,8 +49,8 @@ constexpr CodeTables MakeCodeTables() {
     for (int axis = 0; axis < 3; ++axis) {
       const int along = static_cast<int>(gradient[axis]);
       tables.first[axis][g] = static_cast<uint8_t>(code | (8 + sum2 - 3 * along));  // corner e: p - e + 1/6
-      tables.last[axis][g] = static_cast<uint8_t>(
-          code | (8 + 2 * sum2 - 6 * sum2 + 3 * along));  // corner 1 - e: p - 1 + e + 1/3
+      tables.last[axis][g] =
+          static_cast<uint8_t>(code | (8 - 4 * sum2 + 3 * along));  // corner 1 - e: p - 1 + e + 1/3
     }
   }
   return tables;

@@ -99,7 +99,7 @@ RenderedFrame ClipRenderer::Render(int64_t t, const cv::Mat& clean_with_halo) co
 
   const Shifts shifts = ComputeShifts(t);
   const cv::Mat sigma = ComputeSigma(t, shifts);
-  cv::Mat frame = plan_.linear_light ? DecodeSrgb(clean_with_halo) : clean_with_halo.clone();
+  cv::Mat frame = plan_.linear_light ? DecodeSrgb(clean_with_halo) : clean_with_halo;
   if (plan_.tilt) {
     cv::Mat warped(shifts.dx.size(), type);
     tbb::parallel_for(0, warped.rows, [&](int y) {
@@ -128,6 +128,7 @@ RenderedFrame ClipRenderer::Render(int64_t t, const cv::Mat& clean_with_halo) co
     });
     frame = blurred;
   }
+  if (frame.data == clean_with_halo.data) frame = frame.clone();  // the result is the caller's to change
   return {plan_.linear_light ? EncodeSrgb(frame) : frame, TruthOf(shifts, sigma)};
 }
 

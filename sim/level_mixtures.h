@@ -10,16 +10,16 @@ namespace shimmer::sim {
 struct BlurLevel {
   double variance_px2;  // sigma^2
   int spacing_px;       // of its grid: 1, 2, 4, ... px; values between are a cubic B-spline's
-  std::vector<double>
-      kernel;  // spacing 1: of the whole blur, from the frame; else from the level before it (level 0
-               // for the first coarse one), on the grid of that level. Half: w[0], w[1], ...
+  // Half of a symmetric kernel, w[0], w[1], ...: at spacing 1 the whole blur, from the frame; else what the
+  // level before it lacks (for the first coarse level: the frame), on that one's grid.
+  std::vector<double> kernel;
 };
 
 // A stretch of sigma^2 in which four levels are mixed with weights that are cubics in t:
 //   index 0: sigma^2 in [0, 1/16), t = 16 sigma^2;  index i > 0: sigma^2 in 2^(i - 5) [1, 2), t its place
 //   there, in [0, 1).
 struct BlurMixture {
-  std::array<int, 4> level;  // numbers of the levels; at least two distinct from the others
+  std::array<int, 4> level;                     // numbers of the levels
   std::array<std::array<double, 4>, 4> weight;  // [which of the four][power of t]; they sum to 1 for every t
 };
 

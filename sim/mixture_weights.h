@@ -10,8 +10,8 @@
 
 namespace shimmer::sim {
 
-inline constexpr size_t kRowMultiple =
-    16;  // rows below are a multiple of so many floats, whatever the vector's length
+// Rows below are a multiple of so many floats, whatever the vector's length.
+inline constexpr size_t kRowMultiple = 16;
 
 // A ladder's mixtures as tables to look up, by the number of the mixture.
 struct MixtureTables {

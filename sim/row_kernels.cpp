@@ -5,19 +5,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "sim/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace shimmer::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// Calls f(tag, i) for whole vectors, and for the elements that are left with a vector of one.
-template <class F>
-HWY_INLINE void ForEachVector(size_t count, const F& f) {
-  const hn::ScalableTag<float> d;
-  const hn::CappedTag<float, 1> one;
-  size_t i = 0;
-  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) f(d, i);
-  for (; i < count; ++i) f(one, i);
-}
 
 void ConvolveRow(std::span<const float> weights, const float* centre, const float* const* before,
                  const float* const* after, std::span<float> out) {

@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "sim/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace shimmer::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -41,15 +43,10 @@ HWY_INLINE V NormalCdf(D d, V x) {
 
 template <class F>
 HWY_INLINE void AddToEach(std::span<float> sigma, const F& f) {
-  const hn::ScalableTag<float> d;
-  const hn::CappedTag<float, 1> one;
-  const auto add = [&](auto tag, size_t i) HWY_ATTR {
+  ForEachVector(sigma.size(), [&](auto d, size_t i) HWY_ATTR {
     float* to = sigma.data() + i;
-    hn::StoreU(hn::Add(hn::LoadU(tag, to), f(tag, i)), tag, to);
-  };
-  size_t i = 0;
-  for (; i + hn::Lanes(d) <= sigma.size(); i += hn::Lanes(d)) add(d, i);
-  for (; i < sigma.size(); ++i) add(one, i);
+    hn::StoreU(hn::Add(hn::LoadU(d, to), f(d, i)), d, to);
+  });
 }
 
 void AddPerlinPart(std::span<const float> m, float scale_px, std::span<float> sigma) {
