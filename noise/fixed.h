@@ -31,8 +31,13 @@ class Fixed {
 
   // The same place on the lattice, in [0, kPeriodCells).
   constexpr Fixed Reduced() const {
-    const int128 period = int128{kPeriodCells} << 64, rest = bits_ % period;
-    return Fixed(rest < 0 ? rest + period : rest);
+    const auto cells = static_cast<int64_t>(bits_ >> 64) % kPeriodCells;
+    return Fixed((int128{cells < 0 ? cells + kPeriodCells : cells} << 64) + static_cast<uint64_t>(bits_));
+  }
+
+  // Cell modulo 512 in the 9 high bits, 23 bits of fraction below it; rounded to nearest.
+  constexpr uint32_t Cell9Fraction23() const {
+    return static_cast<uint32_t>((bits_ + (int128{1} << 40)) >> 41);
   }
 
   // Cell modulo 256 in the high byte, 24 bits of fraction below it; rounded to nearest.

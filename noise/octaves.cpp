@@ -1,9 +1,9 @@
 #include "noise/octaves.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
-#include "noise/perlin.h"
 #include "noise/perlin_double.h"
 #include "noise/simplex_double.h"
 
@@ -40,6 +40,20 @@ Place PlaceOf(const Octave& octave, int64_t t, int64_t y, int64_t x) {
   return {(octave.origin[0] + octave.step_px * x).Reduced(),
           (octave.origin[1] + octave.step_px * y).Reduced(),
           (octave.origin[2] + octave.step_frame * t).Reduced()};
+}
+
+template <class Step>
+std::vector<SpacedSteps<Step>> StepsOf(const std::vector<Octave>& octaves) {
+  std::vector<SpacedSteps<Step>> steps(octaves.size());
+  for (size_t i = 0; i < octaves.size(); ++i)
+    for (int64_t spacing = 1; spacing <= kWidestSpacing; spacing *= 2)
+      steps[i].emplace_back(octaves[i].step_px * spacing);
+  return steps;
+}
+
+template <class Step>
+const Step& StepOf(const SpacedSteps<Step>& steps, int64_t spacing_px) {
+  return steps[std::countr_zero(static_cast<uint64_t>(spacing_px))];
 }
 
 }  // namespace
@@ -80,16 +94,20 @@ Origin RandomOrigin(HashStream& stream) {
 }
 
 SimplexOctaves::SimplexOctaves(std::vector<Octave> octaves, SimplexKernel kernel)
-    : octaves_(std::move(octaves)), kernel_(kernel) {
+    : octaves_(std::move(octaves)), steps_(StepsOf<SimplexStep>(octaves_)), kernel_(kernel) {
   for (const Octave& octave : octaves_) tables_.emplace_back(octave.permutation);
 }
 
 void SimplexOctaves::Row(int64_t t, int64_t y, int64_t x0, std::span<float> out) const {
   std::ranges::fill(out, 0.0f);
-  for (size_t i = 0; i < octaves_.size(); ++i) {
-    const Place p = PlaceOf(octaves_[i], t, y, 0);
-    AddSimplexRow(tables_[i], kernel_, p.x, octaves_[i].step_px, p.y, p.z, octaves_[i].amplitude, x0, out);
-  }
+  for (size_t i = octaves_.size(); i-- > 0;) AddOctave(i, t, y, x0, 1, out);
+}
+
+void SimplexOctaves::AddOctave(size_t i, int64_t t, int64_t y, int64_t x0, int64_t spacing_px,
+                               std::span<float> out) const {
+  const Octave& octave = octaves_[i];
+  const Place p = PlaceOf(octave, t, y * spacing_px, 0);
+  AddSimplexRow(tables_[i], kernel_, p.x, StepOf(steps_[i], spacing_px), p.y, p.z, octave.amplitude, x0, out);
 }
 
 double SimplexOctaves::Double(int64_t t, int64_t y, int64_t x) const {
@@ -102,12 +120,19 @@ double SimplexOctaves::Double(int64_t t, int64_t y, int64_t x) const {
   return sum;
 }
 
+PerlinOctaves::PerlinOctaves(std::vector<Octave> octaves)
+    : octaves_(std::move(octaves)), steps_(StepsOf<PerlinStep>(octaves_)) {}
+
 void PerlinOctaves::Row(int64_t t, int64_t y, int64_t x0, std::span<float> out) const {
   std::ranges::fill(out, 0.0f);
-  for (const Octave& octave : octaves_) {
-    const Place p = PlaceOf(octave, t, y, 0);
-    AddPerlinRow(octave.permutation, p.x, octave.step_px, p.y, p.z, octave.amplitude, x0, out);
-  }
+  for (size_t i = octaves_.size(); i-- > 0;) AddOctave(i, t, y, x0, 1, out);
+}
+
+void PerlinOctaves::AddOctave(size_t i, int64_t t, int64_t y, int64_t x0, int64_t spacing_px,
+                              std::span<float> out) const {
+  const Octave& octave = octaves_[i];
+  const Place p = PlaceOf(octave, t, y * spacing_px, 0);
+  AddPerlinRow(octave.permutation, p.x, StepOf(steps_[i], spacing_px), p.y, p.z, octave.amplitude, x0, out);
 }
 
 double PerlinOctaves::Double(int64_t t, int64_t y, int64_t x) const {

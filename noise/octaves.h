@@ -8,6 +8,7 @@
 
 #include "noise/fixed.h"
 #include "noise/lattice.h"
+#include "noise/perlin.h"
 #include "noise/simplex.h"
 
 namespace shimmer::noise {
@@ -40,31 +41,43 @@ std::vector<Octave> SeededOctaves(const OctaveParams& params, uint64_t seed, uin
 // An origin anywhere in the period, from a stream; its coordinates are doubles without loss.
 Origin RandomOrigin(HashStream& stream);
 
-// The sum with simplex noise, or with Perlin noise, as a row of pixels.
+// Steps of an octave by spacing, a power of two up to kWidestSpacing: the logarithm is the index.
+inline constexpr int kWidestSpacing = 64;
+template <class Step>
+using SpacedSteps = std::vector<Step>;
+
+// The sum with simplex noise, or with Perlin noise, as a row of pixels: float32, from the last octave to the
+// first.
 class SimplexOctaves {
  public:
   SimplexOctaves(std::vector<Octave> octaves, SimplexKernel kernel);
   void Row(int64_t t, int64_t y, int64_t x0,
            std::span<float> out) const;                  // pixels x0 .. of row y, frame t; writes out
   double Double(int64_t t, int64_t y, int64_t x) const;  // the twin of one pixel
+  // Adds octave i alone, at every spacing_px-th pixel: those at (x0 .., y) spacing_px. spacing_px: a power of
+  // two, at most kWidestSpacing.
+  void AddOctave(size_t i, int64_t t, int64_t y, int64_t x0, int64_t spacing_px, std::span<float> out) const;
   const SimplexKernel& kernel() const { return kernel_; }
   const std::vector<Octave>& octaves() const { return octaves_; }
 
  private:
   std::vector<Octave> octaves_;
   std::vector<SimplexTable> tables_;
+  std::vector<SpacedSteps<SimplexStep>> steps_;
   SimplexKernel kernel_;
 };
 
 class PerlinOctaves {
  public:
-  explicit PerlinOctaves(std::vector<Octave> octaves) : octaves_(std::move(octaves)) {}
+  explicit PerlinOctaves(std::vector<Octave> octaves);
   void Row(int64_t t, int64_t y, int64_t x0, std::span<float> out) const;
   double Double(int64_t t, int64_t y, int64_t x) const;
+  void AddOctave(size_t i, int64_t t, int64_t y, int64_t x0, int64_t spacing_px, std::span<float> out) const;
   const std::vector<Octave>& octaves() const { return octaves_; }
 
  private:
   std::vector<Octave> octaves_;
+  std::vector<SpacedSteps<PerlinStep>> steps_;
 };
 
 }  // namespace shimmer::noise

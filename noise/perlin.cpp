@@ -28,11 +28,24 @@ struct Edge {
   FloatTable16 slope, rest;
 };
 
+struct GradientAxes {
+  float along[3][16];
+};
+
+constexpr GradientAxes MakeGradientAxes() {
+  GradientAxes axes{};
+  for (size_t hash = 0; hash < 16; ++hash)
+    for (size_t axis = 0; axis < 3; ++axis) axes.along[axis][hash] = kGradients[hash][axis];
+  return axes;
+}
+constexpr GradientAxes kGradientAxes = MakeGradientAxes();
+
 Edge MakeEdge(float y, float z, float weight) {
+  const auto& [along_x, along_y, along_z] = kGradientAxes.along;
   float slope[16], rest[16];
   for (size_t hash = 0; hash < 16; ++hash) {
-    slope[hash] = weight * kGradients[hash][0];
-    rest[hash] = weight * (kGradients[hash][1] * y + kGradients[hash][2] * z);
+    slope[hash] = weight * along_x[hash];
+    rest[hash] = weight * (along_y[hash] * y + along_z[hash] * z);
   }
   return {FloatTable16(slope), FloatTable16(rest)};
 }
@@ -60,10 +73,9 @@ HWY_INLINE EdgeHashes HashEdges(const ByteTable& hash, Bytes i, Bytes j, Bytes k
 template <int j>
 HWY_INLINE Floats Interpolate(const EdgeHashes& hashes, const Edge (&edges)[4], Words cell) {
   const FloatTag d;
-  const hn::RebindToSigned<WordTag> di;
-  const Floats x =
-      hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::And(cell, hn::Set(WordTag(), kFractionMask)))),
-              hn::Set(d, kFractionUnit));
+  const WordTag dw;
+  const Words one_plus_x = hn::Or(hn::And(cell, hn::Set(dw, kFractionMask)), hn::Set(dw, kOneBits));
+  const Floats x = hn::Sub(hn::BitCast(d, one_plus_x), hn::Set(d, 1.0f));
   const Floats x_from[2] = {x, hn::Sub(x, hn::Set(d, 1.0f))};
   Floats at[2];
   for (int side = 0; side < 2; ++side) {
@@ -81,28 +93,28 @@ HWY_INLINE Floats Interpolate(const EdgeHashes& hashes, const Edge (&edges)[4], 
   return hn::Add(at[0], hn::Mul(fade, hn::Sub(at[1], at[0])));
 }
 
-void AddPerlinRow(const Permutation& permutation, Fixed x, Fixed step, Fixed y, Fixed z, float amplitude,
-                  int64_t x0, std::span<float> out) {
+void AddPerlinRow(const Permutation& permutation, Fixed x, const PerlinStep& step, Fixed y, Fixed z,
+                  float amplitude, int64_t x0, std::span<float> out) {
   const FloatTag d;
   const WordTag dw;
   const size_t lanes = hn::Lanes(d);
   const uint32_t y_cell = y.Cell8Fraction24(), z_cell = z.Cell8Fraction24();
-  const float y0 = static_cast<float>(y_cell & kFractionMask) * kFractionUnit, y1 = y0 - 1, up = Fade(y0);
-  const float z0 = static_cast<float>(z_cell & kFractionMask) * kFractionUnit, z1 = z0 - 1, deep = Fade(z0);
+  const auto fraction = [](uint32_t cell) { return static_cast<float>(cell & 0xffffff) * 0x1p-24f; };
+  const float y0 = fraction(y_cell), y1 = y0 - 1, up = Fade(y0);
+  const float z0 = fraction(z_cell), z1 = z0 - 1, deep = Fade(z0);
   const Edge edges[4] = {
       MakeEdge(y0, z0, (1 - up) * (1 - deep) * amplitude), MakeEdge(y1, z0, up * (1 - deep) * amplitude),
       MakeEdge(y0, z1, (1 - up) * deep * amplitude), MakeEdge(y1, z1, up * deep * amplitude)};
   const Bytes j = hn::Set(ByteTag(), static_cast<uint8_t>(y_cell >> 24)),
               k = hn::Set(ByteTag(), static_cast<uint8_t>(z_cell >> 24));
   const ByteTable hash(permutation.data());
-  const RowCoordinate along_x(x, step);
 
   AddBlocks(x0, out, [&](int64_t block, float* sums) HWY_ATTR {
-    const Words start = hn::Set(dw, along_x.BlockStart(block));
+    const Words start = hn::Set(dw, WordOf(x + step.x.step * block));
     for (size_t group = 0; group < kBlockPoints; group += kParts * lanes) {
       Words cell[kParts];
       for (size_t part = 0; part < kParts; ++part)
-        cell[part] = hn::Add(start, hn::Load(dw, along_x.offsets.data() + group + part * lanes));
+        cell[part] = hn::Add(start, hn::Load(dw, step.x.offsets.data() + group + part * lanes));
       const EdgeHashes hashes = HashEdges(hash, TopBytes(cell), j, k);
       const auto add = [&](Floats value, size_t part) HWY_ATTR {
         float* to = sums + group + part * lanes;
@@ -124,8 +136,8 @@ namespace shimmer::noise {
 
 HWY_EXPORT(AddPerlinRow);
 
-void AddPerlinRow(const Permutation& permutation, Fixed x, Fixed step, Fixed y, Fixed z, float amplitude,
-                  int64_t x0, std::span<float> out) {
+void AddPerlinRow(const Permutation& permutation, Fixed x, const PerlinStep& step, Fixed y, Fixed z,
+                  float amplitude, int64_t x0, std::span<float> out) {
   HWY_DYNAMIC_DISPATCH(AddPerlinRow)(permutation, x, step, y, z, amplitude, x0, out);
 }
 

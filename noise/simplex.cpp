@@ -65,16 +65,24 @@ HWY_INLINE Bytes Lookup16(const uint8_t (&table)[16], Bytes index) {
   return hn::TableLookupBytes(hn::LoadDup128(ByteTag(), table), index);
 }
 
-HWY_INLINE Codes HashCorners(const Hashes& t, const Words (&u)[kParts], const Words (&v)[kParts],
-                             const Words (&w)[kParts]) {
+HWY_INLINE Words OnePlusFraction(Words coordinate) {
+  const WordTag d;
+  return hn::Or(hn::And(coordinate, hn::Set(d, kFractionMask)), hn::Set(d, kOneBits));
+}
+
+// The points of a group in skewed coordinates.
+struct Points {
+  Words u[kParts], v[kParts], w[kParts];     // words, as in noise/row_blocks.h
+  Words fu[kParts], fv[kParts], fw[kParts];  // 1 + their fractions, floats: in the order of their bits
+};
+
+HWY_INLINE Codes HashCorners(const Hashes& t, const Points& p) {
   const ByteTag d;
   const WordTag dw;
-  const Words mask = hn::Set(dw, kFractionMask);
+  const auto &u = p.u, &v = p.v, &w = p.w;
   Words uv[kParts], vw[kParts], uw[kParts];
-  for (size_t j = 0; j < kParts; ++j) {
-    const Words fu = hn::And(u[j], mask), fv = hn::And(v[j], mask), fw = hn::And(w[j], mask);
-    uv[j] = hn::Sub(fu, fv), vw[j] = hn::Sub(fv, fw), uw[j] = hn::Sub(fu, fw);
-  }
+  for (size_t j = 0; j < kParts; ++j)
+    uv[j] = hn::Sub(p.fu[j], p.fv[j]), vw[j] = hn::Sub(p.fv[j], p.fw[j]), uw[j] = hn::Sub(p.fu[j], p.fw[j]);
   const auto u_lt_v = IsNegative(TopBytes(uv)), v_lt_w = IsNegative(TopBytes(vw)),
              u_lt_w = IsNegative(TopBytes(uw));
   const auto u_first = hn::Not(hn::Or(u_lt_v, u_lt_w)), v_first = hn::AndNot(v_lt_w, u_lt_v),
@@ -135,26 +143,22 @@ HWY_INLINE Floats Reach4(Floats reach) {
 }
 
 template <int j>
-HWY_INLINE Floats Geometry(const Codes& codes, Words u_cell, Words v_cell, Words w_cell, Floats radius2) {
+HWY_INLINE Floats Geometry(const Codes& codes, const Points& points, Floats radius2) {
   const FloatTag d;
-  const hn::RebindToSigned<WordTag> di;
-  const WordTag dw;
-  const auto fraction = [&](Words cell) {
-    return hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::And(cell, hn::Set(dw, kFractionMask)))),
-                   hn::Set(d, kFractionUnit));
-  };
   const auto c = [&](float v) { return hn::Set(d, v); };
-  const Floats u = fraction(u_cell), v = fraction(v_cell), w = fraction(w_cell);
-  const Floats sum = hn::Add(hn::Add(u, v), w), unskew = hn::Mul(sum, c(1.0f / 6)),
-               half_sum = hn::Mul(sum, c(0.5f));
+  // u, v and w are 1 too large, which the constants below take off; sum, u + v + w - 3/2, is exact
+  const Floats u = hn::BitCast(d, points.fu[j]), v = hn::BitCast(d, points.fv[j]),
+               w = hn::BitCast(d, points.fw[j]);
+  const Floats sum = hn::Add(hn::Add(hn::Sub(u, c(4.5f)), v), w), half_sum = hn::Mul(sum, c(0.5f)),
+               unskew = hn::Add(hn::Mul(sum, c(1.0f / 6)), c(1.25f));
   const Floats x = hn::Sub(u, unskew), y = hn::Sub(v, unskew), z = hn::Sub(w, unskew);
   const Floats most = hn::Max(hn::Max(u, v), w), least = hn::Min(hn::Min(u, v), w);
 
   // radius^2 - |p|^2 at the four corners: |p - o|^2 = |p|^2 - 2 p . o + |o|^2
   const Floats reach0 = hn::Sub(hn::Sub(hn::Sub(radius2, hn::Mul(x, x)), hn::Mul(y, y)), hn::Mul(z, z));
-  const Floats reach1 = hn::Add(hn::Add(reach0, hn::Sub(hn::Add(most, most), half_sum)), c(-0.75f));
-  const Floats reach2 = hn::Add(hn::Sub(reach0, hn::Sub(hn::Add(least, least), sum)), c(-1.0f));
-  const Floats reach3 = hn::Add(hn::Add(reach0, half_sum), c(-0.75f));
+  const Floats reach1 = hn::Add(reach0, hn::Sub(hn::Add(hn::Add(most, most), c(-3.5f)), half_sum));
+  const Floats reach2 = hn::Sub(reach0, hn::Sub(hn::Add(hn::Add(least, least), c(-2.5f)), sum));
+  const Floats reach3 = hn::Add(reach0, half_sum);
   const Floats x3 = hn::Mul(x, c(3)), y3 = hn::Mul(y, c(3)), z3 = hn::Mul(z, c(3));
   const Floats dot0 = Dot<j>(codes.corner[0], x3, y3, z3);
   const Floats dot1 = hn::Add(Dot<j>(codes.corner[1], x3, y3, z3), OffsetDot<j>(codes.corner[1]));
@@ -165,37 +169,44 @@ HWY_INLINE Floats Geometry(const Codes& codes, Words u_cell, Words v_cell, Words
                  hn::Add(hn::Mul(Reach4(reach2), dot2), hn::Mul(Reach4(reach3), dot3)));
 }
 
-void AddSimplexRow(const SimplexTable& table, SimplexKernel kernel, Fixed x, Fixed step, Fixed y, Fixed z,
-                   float amplitude, int64_t x0, std::span<float> out) {
+void AddSimplexRow(const SimplexTable& table, SimplexKernel kernel, Fixed x, const SimplexStep& step, Fixed y,
+                   Fixed z, float amplitude, int64_t x0, std::span<float> out) {
   const FloatTag d;
   const WordTag dw;
   const size_t lanes = hn::Lanes(d);
-  const Fixed skew = (x + y + z).Third();
-  const RowCoordinate along_u(x + skew, step + step.Third()), along_v(y + skew, step.Third());
-  const Fixed w_at_pixel0 = z + skew;
+  const Fixed sum = x + y + z, skew = sum.Third();
+  const Fixed u_at_pixel0 = x + skew, v_at_pixel0 = y + skew, w_at_pixel0 = z + skew;
+  // What the thirds leave, in thirds of 2^-64 cell: with it a block's start is exact, so that where the
+  // octave repeats after some pixels, its bits do
+  const auto rest = static_cast<int64_t>((sum.bits() - (skew * 3).bits()));
   const Floats radius2 = hn::Set(d, static_cast<float>(kernel.radius2)),
                scale = hn::Set(d, static_cast<float>(kernel.scale) * amplitude / 3);
   const Hashes hashes{ByteTable(table.hash.data()), ByteTable(table.gradient.data())};
 
   AddBlocks(x0, out, [&](int64_t block, float* sums) HWY_ATTR {
-    const Words u0 = hn::Set(dw, along_u.BlockStart(block)), v0 = hn::Set(dw, along_v.BlockStart(block)),
-                w0 = hn::Set(dw, (w_at_pixel0 + along_v.step * block).Cell8Fraction24());
+    const int64_t left = rest + step.rest * block;
+    const Fixed carry = Fixed::FromBits(left / 3 - (left % 3 < 0)), along_v = step.v.step * block + carry;
+    const Words u0 = hn::Set(dw, WordOf(u_at_pixel0 + step.u.step * block + carry)),
+                v0 = hn::Set(dw, WordOf(v_at_pixel0 + along_v)),
+                w0 = hn::Set(dw, WordOf(w_at_pixel0 + along_v));
     for (size_t group = 0; group < kBlockPoints; group += kParts * lanes) {
-      Words u[kParts], v[kParts], w[kParts];
+      Points p;
       for (size_t j = 0; j < kParts; ++j) {
-        const Words offset_v = hn::Load(dw, along_v.offsets.data() + group + j * lanes);
-        u[j] = hn::Add(u0, hn::Load(dw, along_u.offsets.data() + group + j * lanes));
-        v[j] = hn::Add(v0, offset_v), w[j] = hn::Add(w0, offset_v);
+        const Words offset_v = hn::Load(dw, step.v.offsets.data() + group + j * lanes);
+        p.u[j] = hn::Add(u0, hn::Load(dw, step.u.offsets.data() + group + j * lanes));
+        p.v[j] = hn::Add(v0, offset_v), p.w[j] = hn::Add(w0, offset_v);
+        p.fu[j] = OnePlusFraction(p.u[j]), p.fv[j] = OnePlusFraction(p.v[j]);
+        p.fw[j] = OnePlusFraction(p.w[j]);
       }
-      const Codes codes = HashCorners(hashes, u, v, w);
+      const Codes codes = HashCorners(hashes, p);
       const auto add = [&](Floats value, size_t part) HWY_ATTR {
         float* to = sums + group + part * lanes;
         hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
       };
-      add(hn::Mul(Geometry<0>(codes, u[0], v[0], w[0], radius2), scale), 0);
-      add(hn::Mul(Geometry<1>(codes, u[1], v[1], w[1], radius2), scale), 1);
-      add(hn::Mul(Geometry<2>(codes, u[2], v[2], w[2], radius2), scale), 2);
-      add(hn::Mul(Geometry<3>(codes, u[3], v[3], w[3], radius2), scale), 3);
+      add(hn::Mul(Geometry<0>(codes, p, radius2), scale), 0);
+      add(hn::Mul(Geometry<1>(codes, p, radius2), scale), 1);
+      add(hn::Mul(Geometry<2>(codes, p, radius2), scale), 2);
+      add(hn::Mul(Geometry<3>(codes, p, radius2), scale), 3);
     }
   });
 }
@@ -210,10 +221,15 @@ SimplexTable::SimplexTable(const Permutation& permutation) : hash(permutation) {
   for (size_t i = 0; i < hash.size(); ++i) gradient[i] = hash[i] % 12;
 }
 
+SimplexStep::SimplexStep(Fixed step_px)
+    : u(step_px + step_px.Third()),
+      v(step_px.Third()),
+      rest(static_cast<int64_t>(step_px.bits() - (step_px.Third() * 3).bits())) {}
+
 HWY_EXPORT(AddSimplexRow);
 
-void AddSimplexRow(const SimplexTable& table, SimplexKernel kernel, Fixed x, Fixed step, Fixed y, Fixed z,
-                   float amplitude, int64_t x0, std::span<float> out) {
+void AddSimplexRow(const SimplexTable& table, SimplexKernel kernel, Fixed x, const SimplexStep& step, Fixed y,
+                   Fixed z, float amplitude, int64_t x0, std::span<float> out) {
   HWY_DYNAMIC_DISPATCH(AddSimplexRow)(table, kernel, x, step, y, z, amplitude, x0, out);
 }
 

@@ -7,6 +7,7 @@
 
 #include "noise/fixed.h"
 #include "noise/lattice.h"
+#include "noise/row_blocks.h"
 
 namespace shimmer::noise {
 
@@ -27,10 +28,17 @@ struct SimplexTable {
   alignas(64) Permutation gradient;  // of each hash: an index into kGradients, hash mod 12
 };
 
+// A step of a row's pixels along x, in skewed coordinates: one serves many rows.
+struct SimplexStep {
+  SimplexStep(Fixed step_px);  // cells
+  RowStep u, v;                // w advances as v does
+  int64_t rest;                // what the thirds leave of the step, in thirds of 2^-64 cell
+};
+
 // out[i] += amplitude * n(x + (x0 + i) step, y, z), i < out.size(): pixels x0 .. of a row. Coordinates in
 // cells, any size. Error against SimplexDouble below 5e-6 amplitude, but for points within 1e-6 cell of a
 // simplex face, which may fall to either side. The same bits on every SIMD target, and wherever a row begins.
-void AddSimplexRow(const SimplexTable& table, SimplexKernel kernel, Fixed x, Fixed step, Fixed y, Fixed z,
-                   float amplitude, int64_t x0, std::span<float> out);
+void AddSimplexRow(const SimplexTable& table, SimplexKernel kernel, Fixed x, const SimplexStep& step, Fixed y,
+                   Fixed z, float amplitude, int64_t x0, std::span<float> out);
 
 }  // namespace shimmer::noise

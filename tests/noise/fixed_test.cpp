@@ -43,6 +43,7 @@ TEST(Fixed, SplitsIntoCellAndFraction) {
   EXPECT_EQ(Fixed::FromDouble(3.5).Cell8Fraction24(), (3u << 24) | (1u << 23));
   EXPECT_EQ(Fixed::FromDouble(259.25).Cell8Fraction24(), (3u << 24) | (1u << 22));
   EXPECT_EQ(Fixed::FromDouble(-0.5).Cell8Fraction24(), (255u << 24) | (1u << 23));
+  EXPECT_EQ(Fixed::FromDouble(-0.5).Cell9Fraction23(), (511u << 23) | (1u << 22));
   EXPECT_EQ(Fixed::FromDouble(255.9999999999).Cell8Fraction24(), 0u);  // rounds up into the next cell
 }
 
