@@ -1,71 +1,98 @@
 #include "sim/level_ladder.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <memory>
+#include <map>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 
 namespace shimmer::sim {
 namespace {
 
-constexpr size_t kLeastLevels = 4;  // for a mixture of four
-constexpr int kCoarsestPx = 16;     // spacing of the coarsest grid
+constexpr int kCoarsestPx = 16;  // spacing of the coarsest grid
 
-// A sigma of at least 1.4 grid steps.
-int SpacingOf(double variance_px2) {
-  int spacing = 1;
-  while (spacing < kCoarsestPx && variance_px2 >= 8.0 * spacing * spacing) spacing *= 2;
-  return spacing;
+// A grade's sigmas and how finely its levels are computed; found by trying, on photographs.
+struct Rule {
+  std::vector<double> first_variances_px2;  // of levels 1, 2, ...; level 0 is the frame
+  double next_variance_px2, ratio;          // and on from there
+  double sigma_per_spacing;                 // a level's sigma is at least so many steps of its grid
+  double kernel_sigmas;                     // kernels end here
+  size_t mixed;                             // levels in a mixture
+  double beyond;                            // widest level's variance at least, over that of the widest sigma
+  double reach_sigmas;                      // px further than so many sigmas away count as the outermost ones
+};
+
+const Rule& RuleOf(LadderGrade grade) {
+  static const Rule fine{{0.27, 0.6, 1.17, 2.25, 4.2}, 8, 1.78, 1.4, 3.5, 7, 1.6, 3.5},
+      standard{{0.30, 0.71, 1.55, 3.5}, 7.4, 2, 1.3, 2.5, 6, 1.6, 3},
+      coarse{{0.40, 1.4}, 3.7, 2.4, 1.2, 2.5, 5, 1.6, 2.5};
+  return grade == LadderGrade::kFine ? fine : grade == LadderGrade::kStandard ? standard : coarse;
 }
 
-// Level 0 is the frame itself; the others double the variance from 1/4 on.
-double VarianceOf(size_t level) { return level == 0 ? 0 : std::ldexp(0.25, static_cast<int>(level) - 1); }
+double VarianceOf(size_t level, const Rule& rule) {
+  if (level == 0) return 0;
+  const std::vector<double>& first = rule.first_variances_px2;
+  if (level <= first.size()) return first[level - 1];
+  double variance = rule.next_variance_px2;  // no std::pow, whose last bit depends on the CPU
+  for (size_t k = first.size() + 1; k < level; ++k) variance *= rule.ratio;
+  return variance;
+}
 
-std::vector<BlurLevel> MakeLevels(size_t count) {
+// Levels up to the first that is wide enough for mixtures of the widest sigma to have a level on either side.
+size_t LevelCount(double max_sigma_px, const Rule& rule) {
+  size_t count = rule.mixed;
+  while (VarianceOf(count - 1, rule) < rule.beyond * max_sigma_px * max_sigma_px) ++count;
+  return count;
+}
+
+std::vector<BlurLevel> MakeLevels(size_t count, const Rule& rule) {
   std::vector<BlurLevel> levels = {{.variance_px2 = 0, .spacing_px = 1, .kernel = {1}}};
+  double coarse_variance = 0;  // of the coarse levels' values so far, without a spline
   while (levels.size() < count) {
-    const double variance = VarianceOf(levels.size());
-    const int spacing = SpacingOf(variance);
-    // Coarse levels take up where the one before ends; that one's spline is not part of what they take up.
-    const BlurLevel& from = spacing > 1 && levels.back().spacing_px > 1 ? levels.back() : levels.front();
-    const double done = from.variance_px2 - SplineVariance(from.spacing_px),
-                 wanted = variance - SplineVariance(spacing);
-    if (spacing == 1 && LevelKernel(std::sqrt(wanted - done)).size() > kMostFineTaps)
-      throw std::logic_error("a fine level's kernel is too long");
-    levels.push_back({variance, spacing, LevelKernel(std::sqrt(wanted - done) / from.spacing_px)});
+    const double variance = VarianceOf(levels.size(), rule), sigma = std::sqrt(variance);
+    const int from_px = levels.back().spacing_px;
+    const bool thin = from_px < kCoarsestPx && sigma >= rule.sigma_per_spacing * 2 * from_px;
+    const int spacing = thin ? 2 * from_px : from_px;
+    const double step = std::sqrt(variance - SplineVariance(spacing) - coarse_variance) / from_px;
+    const int radius = std::max(1, static_cast<int>(std::lround(rule.kernel_sigmas * step)));
+    if (radius > kMostKernelRadius) throw std::logic_error("a level's kernel is too long");
+    levels.push_back({variance, spacing, LevelKernel(step, radius, thin)});
+    if (spacing > 1) coarse_variance += KernelVariance(levels.back().kernel) * from_px * from_px;
   }
   return levels;
 }
 
-// Levels up to the first that is wide enough; and one more unless sigma stays near the level before it, for
-// mixtures are better with levels on both sides.
-size_t LevelCount(double max_sigma_px) {
-  size_t count = kLeastLevels;
-  while (VarianceOf(count - 1) < max_sigma_px * max_sigma_px / 0.6) ++count;
-  return count;
-}
-
-// How far the light of a pixel comes from: as far as the coarsest level's Gaussian reaches (what its kernels,
-// one after the other, may carry beyond that is less than 1e-6), and from whole points of its grid, four for
-// the spline.
-int Margin(const BlurLevel& coarsest) {
-  constexpr double kReachSigmas = 5;
-  return static_cast<int>(std::ceil(kReachSigmas * std::sqrt(coarsest.variance_px2))) +
-         4 * coarsest.spacing_px;
-}
-
 }  // namespace
 
-LevelLadder::LevelLadder(size_t levels)
-    : levels_(MakeLevels(levels)), mixtures_(MakeMixtures(levels_)), margin_px_(Margin(levels_.back())) {}
+LadderPromise PromiseOf(LadderGrade grade) {
+  switch (grade) {
+    case LadderGrade::kFine:
+      return {.levels = 0.03, .levels_encoded = 0.1};
+    case LadderGrade::kStandard:
+      return {.levels = 0.085, .levels_encoded = 0.2};
+    case LadderGrade::kCoarse:
+      break;
+  }
+  return {.levels = 0.3, .levels_encoded = 1};
+}
 
-const LevelLadder& LevelLadder::For(double max_sigma_px) {
-  static std::array<std::once_flag, kMostLevels + 1> made;
-  static std::array<std::unique_ptr<const LevelLadder>, kMostLevels + 1> ladders;
-  const size_t count = LevelCount(max_sigma_px);
-  std::call_once(made.at(count), [&] { ladders[count].reset(new LevelLadder(count)); });
-  return *ladders[count];
+LevelLadder LevelLadder::For(double max_sigma_px, LadderGrade grade) {
+  if (!(max_sigma_px > 0 && max_sigma_px <= kMostLadderSigmaPx))
+    throw std::invalid_argument("max_sigma_px = " + std::to_string(max_sigma_px) + ", must be in (0, 32]");
+  static std::mutex mutex;
+  static std::map<std::pair<LadderGrade, size_t>, std::shared_ptr<const Tables>> made;
+  const Rule& rule = RuleOf(grade);
+  const size_t count = LevelCount(max_sigma_px, rule);
+
+  const std::lock_guard lock(mutex);
+  std::shared_ptr<const Tables>& tables = made[{grade, count}];
+  if (!tables) {
+    Tables fresh{.levels = MakeLevels(count, rule), .mixtures = {}};
+    fresh.mixtures = MakeMixtures(fresh.levels, rule.mixed);
+    tables = std::make_shared<const Tables>(std::move(fresh));
+  }
+  return {tables, static_cast<int>(std::ceil(rule.reach_sigmas * max_sigma_px))};
 }
 
 }  // namespace shimmer::sim

@@ -1,47 +1,59 @@
 // The fast blur's levels: copies of the frame blurred by a ladder of sigmas, coarser ones on coarser grids,
-// and for every sigma between them the mixture of four copies that comes nearest to its Gaussian.
+// and for every sigma between them the mixture of a few copies that comes nearest to its Gaussian.
 //
-//   sigma_k^2 = 0, 1/4, 1/2, 1, 2, ... px^2: twice the variance from level to level.
-//
-// Mixtures are found by least squares over the spectrum of natural pictures (power 1 / frequency^2), with the
-// levels' true transfer functions, grids and splines included; their weights are cubics in the place between
-// two levels.
+// A level need not be a Gaussian, only near one: mixtures are found by least squares over the spectrum of
+// natural pictures (power 1 / frequency^2), with the levels' true transfer functions, short kernels, grids
+// and splines included. How many levels there are to an octave is the grade's choice.
 #pragma once
 
-#include <cstddef>
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "sim/level_mixtures.h"
 
 namespace shimmer::sim {
 
-// What mixing loses against each pixel's own Gaussian: RMS over a photograph, in 1/255 of the range, at any
-// sigma (tests/sim/ladder_blur_test.cpp; the largest measured is 0.071).
-inline constexpr double kLadderErrorLevels = 0.1;
-// The same where the result is encoded as sRGB afterwards, which makes more of errors in the dark: the
-// largest measured is 0.19, on a photograph darkened to its square.
-inline constexpr double kLadderErrorLevelsEncoded = 0.3;
+// How near to the exact Gaussian, from near and slow to rough and fast.
+enum class LadderGrade { kFine, kStandard, kCoarse };
+inline constexpr std::array<LadderGrade, 3> kLadderGrades = {LadderGrade::kFine, LadderGrade::kStandard,
+                                                             LadderGrade::kCoarse};
 
-inline constexpr size_t kMostLevels = 15;    // of a ladder to 32 px
-inline constexpr size_t kMostFineTaps = 16;  // of half a kernel of a level on the frame's own grid
+// What a grade loses against each pixel's own Gaussian: RMS over a photograph in 1/255 of the range, at any
+// sigma and at a clip's border too (tests/sim/ladder_blur_test.cpp).
+struct LadderPromise {
+  double levels;
+  double levels_encoded;  // where the result is encoded as sRGB, which makes more of errors in the dark
+};
+LadderPromise PromiseOf(LadderGrade grade);
+
+inline constexpr double kMostLadderSigmaPx = 32;
+inline constexpr int kMostKernelRadius = 12;  // of any level
 
 class LevelLadder {
  public:
-  // The shortest ladder that holds sigmas up to max_sigma_px, in (0, 32]. Made once for all who ask for it.
-  static const LevelLadder& For(double max_sigma_px);
+  // The shortest ladder that holds sigmas up to max_sigma_px, in (0, kMostLadderSigmaPx]. Levels are made
+  // once for all who ask for as many.
+  static LevelLadder For(double max_sigma_px, LadderGrade grade);
 
-  const std::vector<BlurLevel>& levels() const { return levels_; }
-  const std::vector<BlurMixture>& mixtures() const { return mixtures_; }
+  const std::vector<BlurLevel>& levels() const { return tables_->levels; }
+  const std::vector<BlurMixture>& mixtures() const { return tables_->mixtures; }
 
-  // Px around a pixel that its value is gathered from.
+  // Px around a pixel that its value is gathered from; what lies beyond is less than the promise, and taken
+  // to be like the outermost pixels.
   int margin_px() const { return margin_px_; }
 
  private:
-  explicit LevelLadder(size_t levels);
+  struct Tables {
+    std::vector<BlurLevel> levels;
+    std::vector<BlurMixture> mixtures;
+  };
 
-  std::vector<BlurLevel> levels_;
-  std::vector<BlurMixture> mixtures_;
-  int margin_px_ = 0;
+  LevelLadder(std::shared_ptr<const Tables> tables, int margin_px)
+      : tables_(std::move(tables)), margin_px_(margin_px) {}
+
+  std::shared_ptr<const Tables> tables_;
+  int margin_px_;
 };
 
 }  // namespace shimmer::sim

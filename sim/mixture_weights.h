@@ -1,39 +1,30 @@
-// The weights that mix a ladder's levels, for a row of sigmas.
+// A ladder's mixtures as tables to look up, by the number of the mixture.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "sim/level_ladder.h"
 
 namespace shimmer::sim {
 
-// Rows below are a multiple of so many floats, whatever the vector's length.
-inline constexpr size_t kRowMultiple = 16;
+inline constexpr size_t kMostLevels = 20;
+inline constexpr size_t kMostMixtures = 16;
 
-// A ladder's mixtures as tables to look up, by the number of the mixture.
 struct MixtureTables {
   explicit MixtureTables(const LevelLadder& ladder);
 
-  int mixtures, levels;
+  int mixtures;
   // t = sigma^2 scale + offset
-  alignas(64) std::array<float, 16> scale, offset;
-  alignas(64) std::array<std::array<float, 16>, 4> level;                  // [which of the four], as a float
-  alignas(64) std::array<std::array<std::array<float, 16>, 4>, 4> weight;  // [which of the four][power]
+  alignas(64) std::array<float, kMostMixtures> scale, offset;
+  // [level][power of t]; 0 where a level has no part in a mixture
+  alignas(64) std::array<std::array<std::array<float, kMostMixtures>, 4>, kMostLevels> weight;
+  // A word's bits, to be looked up like the others: bit k is set if level k has a part in the mixture
+  alignas(64) std::array<float, kMostMixtures> levels;
 };
 
-// Bit k is set if level k has a weight for some sigma. Any size but 0.
-uint32_t LevelsInUse(const MixtureTables& tables, std::span<const float> sigma_px);
-
-// weights[k][i] = weight of level k at sigma_px[i], for the levels in use; others are left as they are.
-// Size: a multiple of kRowMultiple, as of MixLevels.
-void MixtureWeights(const MixtureTables& tables, uint32_t in_use, std::span<const float> sigma_px,
-                    float* const* weights);
-
-// out[i] = sum over levels in use of weights[k][i] values[k][i].
-void MixLevels(uint32_t in_use, const float* const* weights, const float* const* values,
-               std::span<float> out);
+// The mixture of sigma^2 is its binary exponent less this one (biased, as in the float), and 0 for all below.
+inline constexpr int kFirstExponent = 127 - 5;
 
 }  // namespace shimmer::sim

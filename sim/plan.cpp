@@ -1,8 +1,12 @@
 #include "sim/plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "noise/portable_math.h"
+#include "sim/error_budget.h"
+#include "sim/field_plan.h"
 #include "sim/gaussian.h"
 #include "sim/level_ladder.h"
 #include "sim/warp.h"
@@ -10,25 +14,51 @@
 namespace shimmer::sim {
 namespace {
 
+// What an RMS error of linear light grows to when it is encoded as sRGB: as measured of the ladders, on a
+// photograph darkened to its square.
+constexpr double kEncodedPerStored = 3.4;
+
+// Whether a blur of this sigma can be seen: what it changes is a pixel's four neighbours' share, exp(-1 / (2
+// sigma^2)), of their difference from it, which is at most 65/255 RMS on photographs. At the exact budget,
+// where it does not reach a float's last bit. Above half a px, more than the nearest have a share.
+bool IsVisible(const BlurParams& blur, bool linear_light, const Accuracy& accuracy) {
+  constexpr double kDifferenceLevels = 65, kLastBit = 0x1p-27, kMostInvisible_px = 0.5;
+  const double sigma_px = blur.max_sigma_px;
+  if (sigma_px <= 0 || sigma_px >= kMostInvisible_px) return sigma_px > 0;
+  const double share = noise::Exp(-0.5 / (sigma_px * sigma_px));
+  const double levels = share * kDifferenceLevels * (linear_light ? kEncodedPerStored : 1);
+  return share > kLastBit && (blur.method != BlurMethod::kAuto || levels > accuracy.max_error_levels);
+}
+
 TiltPlan PlanTilt(const TiltParams& tilt) {
   return {.frozen = tilt.temporal_scale == 0,
           .margin_px = static_cast<int>(std::ceil(tilt.BoundPx())) + kWarpReachPx};
 }
 
-// The fastest way within the budget.
-BlurWay WayOf(const BlurParams& blur, bool linear_light, const Accuracy& accuracy) {
-  if (blur.method == BlurMethod::kStack) return BlurWay::kStack;
-  const bool exact =
-      blur.method == BlurMethod::kExact ||
-      accuracy.max_error_levels < (linear_light ? kLadderErrorLevelsEncoded : kLadderErrorLevels);
-  return exact ? BlurWay::kExact : BlurWay::kLadder;
+// What blurring may cost, and what is left of it for sigma.
+struct BlurChoice {
+  BlurWay way;
+  LadderGrade grade = LadderGrade::kStandard;
+  double promised_levels = 0;
+};
+
+// The fastest way within the budget. A share of it must be left for the sigma map.
+BlurChoice ChooseWay(const BlurParams& blur, bool linear_light, const Accuracy& accuracy) {
+  constexpr double kLadderShare = 0.9;
+  if (blur.method == BlurMethod::kStack) return {BlurWay::kStack};
+  if (blur.method == BlurMethod::kAuto)
+    for (const LadderGrade grade : {LadderGrade::kCoarse, LadderGrade::kStandard, LadderGrade::kFine}) {
+      const LadderPromise promise = PromiseOf(grade);
+      const double levels = linear_light ? promise.levels_encoded : promise.levels;
+      if (levels <= kLadderShare * accuracy.max_error_levels) return {BlurWay::kLadder, grade, levels};
+    }
+  return {BlurWay::kExact};
 }
 
-BlurPlan PlanBlur(const BlurParams& blur, const std::optional<TiltPlan>& tilt, bool linear_light,
-                  const Accuracy& accuracy) {
-  BlurPlan plan{.way = WayOf(blur, linear_light, accuracy)};
+BlurPlan PlanBlur(const BlurParams& blur, const std::optional<TiltPlan>& tilt, const BlurChoice& choice) {
+  BlurPlan plan{.way = choice.way, .grade = choice.grade};
   plan.margin_px = plan.way == BlurWay::kLadder
-                       ? LevelLadder::For(blur.max_sigma_px).margin_px()
+                       ? LevelLadder::For(blur.max_sigma_px, plan.grade).margin_px()
                        : GaussianRadius(static_cast<float>(blur.max_sigma_px));  // sigmas are float32
   const bool varies = blur.max_sigma_px > blur.min_sigma_px;
   plan.noise = varies && blur.tilt_weight < 1;
@@ -36,6 +66,22 @@ BlurPlan PlanBlur(const BlurParams& blur, const std::optional<TiltPlan>& tilt, b
   plan.constant = !plan.noise && !plan.tilt;
   plan.frozen = !(plan.noise && blur.temporal_scale > 0) && !(plan.tilt && !tilt->frozen);
   return plan;
+}
+
+// What the ladder leaves of the levels to the sigma map.
+double LevelsForSigma(const BlurChoice& choice, bool linear_light, double max_error_levels) {
+  const double left = max_error_levels * max_error_levels - choice.promised_levels * choice.promised_levels;
+  return std::sqrt(std::max(left, 0.0)) / (linear_light ? kEncodedPerStored : 1);
+}
+
+// The ladder's error and that of the sigma map, as fields are planned to make it.
+double PromisedLevels(const Scene& scene, const ClipPlan& plan, double ladder_levels) {
+  const double encoded = plan.linear_light ? kEncodedPerStored : 1;
+  const double noise =
+      plan.blur->noise ? plan.blur->field.rms_error * LevelsPerNoise(scene.blur, plan.shape.size) : 0;
+  const double tilt =
+      plan.blur->tilt ? plan.tilt->field.rms_error * LevelsPerTiltPx(scene, plan.shape.size) : 0;
+  return std::hypot(ladder_levels, encoded * noise, encoded * tilt);
 }
 
 }  // namespace
@@ -59,7 +105,22 @@ ClipPlan PlanClip(const Scene& scene, const ClipShape& shape, const Accuracy& ac
   plan.linear_light = scene.colour == Colour::kLinear;
   plan.read_once = scene.still;
   if (scene.tilt.strength_px > 0) plan.tilt = PlanTilt(scene.tilt);
-  if (scene.blur.max_sigma_px > 0) plan.blur = PlanBlur(scene.blur, plan.tilt, plan.linear_light, accuracy);
+  SigmaBudget budget;
+  double promised_levels = 0;  // of the ladder
+  if (IsVisible(scene.blur, plan.linear_light, accuracy)) {
+    const BlurChoice choice = ChooseWay(scene.blur, plan.linear_light, accuracy);
+    plan.blur = PlanBlur(scene.blur, plan.tilt, choice);
+    promised_levels = choice.promised_levels;
+    const double levels = LevelsForSigma(choice, plan.linear_light, accuracy.max_error_levels);
+    budget = ShareLevels(scene, *plan.blur, shape.size, levels);
+    if (plan.blur->noise)
+      plan.blur->field = PlanBlurNoise(scene.blur, shape.size, shape.frames, budget.noise);
+  }
+  if (plan.tilt)
+    plan.tilt->field =
+        PlanTiltField(scene.tilt, shape.size, shape.frames, {accuracy.max_error_px, budget.tilt_px},
+                      plan.blur ? plan.blur->margin_px : 0);
+  if (plan.blur) plan.blur->promised_levels = PromisedLevels(scene, plan, promised_levels);
   plan.render_once = scene.still && (!plan.tilt || plan.tilt->frozen) && (!plan.blur || plan.blur->frozen);
   plan.halo_px = (plan.tilt ? plan.tilt->margin_px : 0) + (plan.blur ? plan.blur->margin_px : 0);
   return plan;

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "noise/field_plan.h"
+#include "sim/level_ladder.h"
 #include "sim/scene.h"
 
 namespace shimmer::sim {
@@ -21,8 +23,9 @@ struct ClipShape {
 };
 
 struct TiltPlan {
-  bool frozen = false;  // one field serves all frames
-  int margin_px = 0;    // how far outside itself a pixel may be taken from, interpolation included
+  bool frozen = false;          // one field serves all frames
+  int margin_px = 0;            // how far outside itself a pixel may be taken from, interpolation included
+  noise::FieldPlan field = {};  // how each axis is evaluated; errors in px
 
   template <class Self, class Visitor>
   static void Fields(Self& self, Visitor& visit) {
@@ -30,26 +33,33 @@ struct TiltPlan {
     visit(
         Field{.name = "margin_px", .unit = "px", .help = "how far outside itself a pixel may be taken from"},
         self.margin_px);
+    visit(Field{.name = "field", .unit = "px", .help = "how each octave is evaluated, and the error of that"},
+          self.field);
   }
   friend bool operator==(const TiltPlan&, const TiltPlan&) = default;
 };
 
-// exact: each pixel's own Gaussian (exact_blur.h). ladder: mixtures of blurred copies, to a tenth of a level
-// (ladder_blur.h). stack: the paper's 11 copies, with no promise (stack_blur.h).
+// exact: each pixel's own Gaussian (exact_blur.h). ladder: mixtures of blurred copies, within its grade's
+// promise (ladder_blur.h). stack: the paper's 11 copies, with no promise (stack_blur.h).
 enum class BlurWay { kExact, kLadder, kStack };
 
 struct BlurPlan {
   BlurWay way = BlurWay::kExact;
-  bool constant = false;  // one sigma everywhere: no map
-  bool noise = false;     // the map has a Perlin part
-  bool tilt = false;      // the map has a tilt part
-  bool frozen = false;    // one map serves all frames
-  int margin_px = 0;      // px around a pixel that its value is gathered from
+  LadderGrade grade = LadderGrade::kStandard;  // of the ladder
+  bool constant = false;                       // one sigma everywhere: no map
+  bool noise = false;                          // the map has a Perlin part
+  bool tilt = false;                           // the map has a tilt part
+  bool frozen = false;                         // one map serves all frames
+  int margin_px = 0;                           // px around a pixel that its value is gathered from
+  noise::FieldPlan field = {};                 // how the Perlin part is evaluated; errors in the noise's unit
+  double promised_levels = 0;  // RMS error on a natural picture, in 1/255: of a ladder, and of sigma
 
   template <class Self, class Visitor>
   static void Fields(Self& self, Visitor& visit) {
     visit(Field{.name = "way", .names = {"exact", "ladder", "stack"}, .help = "how the Gaussian is computed"},
           self.way);
+    visit(Field{.name = "grade", .names = {"fine", "standard", "coarse"}, .help = "how near a ladder comes"},
+          self.grade);
     visit(Field{.name = "constant", .help = "one sigma everywhere: no map"}, self.constant);
     visit(Field{.name = "noise", .help = "the map has a Perlin part"}, self.noise);
     visit(Field{.name = "tilt", .help = "the map has a tilt part"}, self.tilt);
@@ -57,6 +67,11 @@ struct BlurPlan {
     visit(
         Field{.name = "margin_px", .unit = "px", .help = "px around a pixel that its value is gathered from"},
         self.margin_px);
+    visit(Field{.name = "field", .help = "how each octave of the Perlin part is evaluated"}, self.field);
+    visit(Field{.name = "promised_levels",
+                .unit = "1/255",
+                .help = "RMS error on a natural picture: of a ladder, and of sigma"},
+          self.promised_levels);
   }
   friend bool operator==(const BlurPlan&, const BlurPlan&) = default;
 };

@@ -153,7 +153,7 @@ struct BlurParams {
 // The one accuracy knob: what may be lost against the double reference. 0 is exact.
 struct Accuracy {
   double max_error_px = 0.05;     // of every pixel's displacement
-  double max_error_levels = 0.1;  // RMS of blurring a natural image, in 1/255 of the range
+  double max_error_levels = 0.2;  // RMS of blurring a natural image, in 1/255 of the range
 
   template <class Self, class Visitor>
   static void Fields(Self& self, Visitor& visit) {

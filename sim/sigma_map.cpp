@@ -4,13 +4,17 @@
 #include "sim/tilt_field.h"
 
 namespace shimmer::sim {
+
 BlurNoise::BlurNoise(const BlurParams& blur, LatticeKind lattice, ClipKey key)
-    : octaves_(MakeOctaves({.octaves = blur.octaves,
-                            .base_frequency = blur.base_frequency,
-                            .temporal_scale = blur.temporal_scale,
-                            .lacunarity = blur.lacunarity,
-                            .persistence = blur.persistence},
-                           lattice, key, "blur")) {}
+    : octaves_(MakeOctaves(SumOf(blur), lattice, key, "blur")) {}
+
+noise::OctaveParams SumOf(const BlurParams& blur) {
+  return {.octaves = blur.octaves,
+          .base_frequency = blur.base_frequency,
+          .temporal_scale = blur.temporal_scale,
+          .lacunarity = blur.lacunarity,
+          .persistence = blur.persistence};
+}
 
 double Perlin01(double m) { return noise::NormalCdf(m / kPerlinRms); }
 

@@ -30,6 +30,9 @@ class BlurNoise {
   noise::PerlinOctaves octaves_;
 };
 
+// The sum of octaves that m is.
+noise::OctaveParams SumOf(const BlurParams& blur);
+
 // sigma += scale_px Phi(m / 0.157), and sigma += scale_px (1 - exp(-(dx^2 + dy^2) / (2 (0.247
 // strength_px)^2))). Error below 1e-6 scale_px.
 void AddPerlinPart(std::span<const float> m, double scale_px, std::span<float> sigma);

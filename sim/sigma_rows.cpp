@@ -8,11 +8,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "sim/vectors-inl.h"
+#include "noise/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace shimmer::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using noise::HWY_NAMESPACE::ForEachVector;
 
 // e^-x, x >= 0, absolute error below 1.5e-7; 0 from x = 87 on.
 template <class D, class V = hn::Vec<D>>

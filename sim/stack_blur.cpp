@@ -1,12 +1,11 @@
 #include "sim/stack_blur.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "sim/gaussian.h"
+#include "sim/parallel.h"
 
 namespace shimmer::sim {
 namespace {
@@ -35,13 +34,13 @@ cv::Mat GaussianBlur(const cv::Mat& frame, double sigma_px, int border_px) {
             channels = frame.channels();
 
   cv::Mat rows_done(height + 2 * radius, width, frame.type()), blurred(height, width, frame.type());
-  tbb::parallel_for(0, rows_done.rows, [&](int y) {
+  ParallelFor(0, rows_done.rows, [&](int y) {
     std::vector<double> sum;
     const float* row = frame.ptr<float>(y + border_px - radius) + border_px * channels;
     Convolve(
         weights, [&](int k) { return row + k * channels; }, width * channels, rows_done.ptr<float>(y), sum);
   });
-  tbb::parallel_for(0, height, [&](int y) {
+  ParallelFor(0, height, [&](int y) {
     std::vector<double> sum;
     Convolve(
         weights, [&](int k) { return rows_done.ptr<float>(y + radius + k); }, width * channels,

@@ -8,16 +8,19 @@ namespace shimmer::sim {
 namespace {
 
 noise::SimplexOctaves AxisOctaves(const TiltParams& tilt, ClipKey key, std::string_view path) {
-  const noise::OctaveParams params{.octaves = tilt.octaves,
-                                   .base_frequency = tilt.base_frequency,
-                                   .temporal_scale = tilt.temporal_scale,
-                                   .lacunarity = tilt.lacunarity,
-                                   .persistence = tilt.persistence,
-                                   .peak = tilt.strength_px};
-  return {MakeOctaves(params, tilt.lattice, key, path), tilt.Kernel()};
+  return {MakeOctaves(SumOf(tilt), tilt.lattice, key, path), tilt.Kernel()};
 }
 
 }  // namespace
+
+noise::OctaveParams SumOf(const TiltParams& tilt) {
+  return {.octaves = tilt.octaves,
+          .base_frequency = tilt.base_frequency,
+          .temporal_scale = tilt.temporal_scale,
+          .lacunarity = tilt.lacunarity,
+          .persistence = tilt.persistence,
+          .peak = tilt.strength_px};
+}
 
 std::vector<noise::Octave> MakeOctaves(const noise::OctaveParams& params, LatticeKind lattice, ClipKey key,
                                        std::string_view path) {

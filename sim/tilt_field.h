@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "noise/octaves.h"
+#include "noise/planned_octaves.h"
 #include "sim/draw.h"
 #include "sim/scene.h"
 
@@ -32,6 +32,18 @@ class TiltField {
  private:
   noise::SimplexOctaves x_, y_;
 };
+
+// Both axes of a field over an area of pixels, as a plan says (sim/field_plan.h): their octaves have the same
+// steps and amplitudes, so that one plan serves both.
+struct PlannedTilt {
+  noise::PlannedOctaves x, y;
+
+  PlannedTilt(const TiltField& field, const noise::FieldPlan& plan, const noise::PixelArea& area)
+      : x(field.x(), plan, area), y(field.y(), plan, area) {}
+};
+
+// The sum of octaves that an axis of the tilt is.
+noise::OctaveParams SumOf(const TiltParams& tilt);
 
 // The lattices of a clip's field, as the config's tilt.lattice says. path names the axis, "tilt.x" or "blur".
 std::vector<noise::Octave> MakeOctaves(const noise::OctaveParams& params, LatticeKind lattice, ClipKey key,

@@ -2,99 +2,65 @@
 
 #include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
-#include "sim/bicubic.h"
+#include "sim/parallel.h"
 
 namespace shimmer::sim {
 namespace {
 
-// Weights of the pixels first .. first + N - 1 from floor(place), for the fraction t of the place.
-struct Nearest {
-  static constexpr int kFirst = 0, kTaps = 2;
-  template <class Real>
-  static std::array<Real, 2> Weights(Real t) {
-    return {Real(t < Real(0.5)), Real(t >= Real(0.5))};
-  }
-};
-
-struct Bilinear {
-  static constexpr int kFirst = 0, kTaps = 2;
-  template <class Real>
-  static std::array<Real, 2> Weights(Real t) {
-    return {1 - t, t};
-  }
-};
-
-struct CatmullRom {
-  static constexpr int kFirst = -1, kTaps = 4;
-  template <class Real>
-  static std::array<Real, 4> Weights(Real t) {
-    const Real half = Real(0.5);
-    return {half * t * ((2 - t) * t - 1), half * ((3 * t - 5) * t * t + 2), half * t * ((4 - 3 * t) * t + 1),
-            half * t * t * (t - 1)};
-  }
-};
-
-template <class Kernel, int kChannels, class Real>
-void Sample(const cv::Mat& frame, int x, int y, Real fraction_x, Real fraction_y, Real* out) {
-  const auto weights_x = Kernel::Weights(fraction_x), weights_y = Kernel::Weights(fraction_y);
-  for (int c = 0; c < kChannels; ++c) out[c] = 0;
-  for (int j = 0; j < Kernel::kTaps; ++j) {
-    const float* pixels = frame.ptr<float>(y + Kernel::kFirst + j) + (x + Kernel::kFirst) * kChannels;
-    for (int c = 0; c < kChannels; ++c) {
-      Real along_x = 0;
-      for (int i = 0; i < Kernel::kTaps; ++i) along_x += weights_x[i] * pixels[i * kChannels + c];
-      out[c] += weights_y[j] * along_x;
-    }
-  }
-}
-
-template <class Kernel, int kChannels>
-void WarpRowWith(const cv::Mat& frame, cv::Point first, std::span<const float> dx, std::span<const float> dy,
-                 float* out) {
-  for (size_t i = 0; i < dx.size(); ++i, out += kChannels) {
-    const float whole_x = std::floor(dx[i]), whole_y = std::floor(dy[i]);
-    Sample<Kernel, kChannels>(frame, first.x + static_cast<int>(i) + static_cast<int>(whole_x),
-                              first.y + static_cast<int>(whole_y), dx[i] - whole_x, dy[i] - whole_y, out);
-  }
-}
-
-// Calls f<Kernel> of an interpolation.
-template <class F>
-void WithKernel(Interpolation interpolation, const F& f) {
+// Weights of the pixels floor(place) - 1 .. floor(place) + 2, for the fraction t of the place.
+std::array<double, 4> WeightsOf(double t, Interpolation interpolation) {
   switch (interpolation) {
     case Interpolation::kNearest:
-      return f.template operator()<Nearest>();
+      return {0, t < 0.5 ? 1.0 : 0.0, t < 0.5 ? 0.0 : 1.0, 0};
     case Interpolation::kBilinear:
-      return f.template operator()<Bilinear>();
+      return {0, 1 - t, t, 0};
     case Interpolation::kBicubic:
-      return f.template operator()<CatmullRom>();
+      return {0.5 * t * ((2 - t) * t - 1), 0.5 * ((3 * t - 5) * t * t + 2), 0.5 * t * ((4 - 3 * t) * t + 1),
+              0.5 * t * t * (t - 1)};
+  }
+  return {};
+}
+
+double SampleOf(const cv::Mat& frame, int x, int y, int channel) {
+  const int i = x * frame.channels() + channel;
+  switch (frame.depth()) {
+    case CV_8U:
+      return frame.ptr<uint8_t>(y)[i] / 255.0;
+    case CV_16U:
+      return frame.ptr<uint16_t>(y)[i] / 65535.0;
+    default:
+      return frame.ptr<float>(y)[i];
   }
 }
 
 }  // namespace
 
-void WarpRow(const cv::Mat& frame, cv::Point first, std::span<const float> dx, std::span<const float> dy,
-             Interpolation interpolation, float* out) {
-  if (interpolation == Interpolation::kBicubic) return BicubicRow(frame, first, dx, dy, out);
-  WithKernel(interpolation, [&]<class Kernel>() {
-    if (frame.channels() == 1)
-      WarpRowWith<Kernel, 1>(frame, first, dx, dy, out);
-    else
-      WarpRowWith<Kernel, 3>(frame, first, dx, dy, out);
+cv::Mat PrepareForWarp(const cv::Mat& clean) {
+  const int depth = clean.depth();
+  if ((depth != CV_8U && depth != CV_16U && depth != CV_32F) ||
+      (clean.channels() != 1 && clean.channels() != 3))
+    throw std::invalid_argument("frame of type " + cv::typeToString(clean.type()) +
+                                ", must be of 8 bits, 16 bits or float, 1 or 3 channels");
+  if (clean.channels() == 1) return clean;
+  cv::Mat four(clean.size(), CV_MAKETYPE(depth, 4));
+  ParallelFor(0, clean.rows, [&](int y) {
+    cv::Mat row = four.row(y);
+    cv::cvtColor(clean.row(y), row, cv::COLOR_RGB2RGBA);
   });
+  return four;
 }
 
 double WarpDouble(const cv::Mat& frame, double x, double y, int channel, Interpolation interpolation) {
-  const double whole_x = std::floor(x), whole_y = std::floor(y);
-  double out = 0;
-  cv::Mat one_channel;
-  cv::extractChannel(frame, one_channel, channel);
-  WithKernel(interpolation, [&]<class Kernel>() {
-    Sample<Kernel, 1>(one_channel, static_cast<int>(whole_x), static_cast<int>(whole_y), x - whole_x,
-                      y - whole_y, &out);
-  });
-  return out;
+  const int whole_x = static_cast<int>(std::floor(x)), whole_y = static_cast<int>(std::floor(y));
+  const auto weights_x = WeightsOf(x - whole_x, interpolation),
+             weights_y = WeightsOf(y - whole_y, interpolation);
+  double sum = 0;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i)
+      sum += weights_y[j] * weights_x[i] * SampleOf(frame, whole_x - 1 + i, whole_y - 1 + j, channel);
+  return sum;
 }
 
 }  // namespace shimmer::sim

@@ -97,7 +97,9 @@ cv::Mat CleanFrames::Prepare(const dataset::Picture& picture, int halo_px) {
   if (flip_) cv::flip(pixels, pixels, 1);
   if (config_.colour == sim::Colour::kLinear && picture.linear != OutputIsLinear(config_))
     pixels = picture.linear ? sim::EncodeSrgb(pixels) : sim::DecodeSrgb(pixels);
-  return dataset::Quantise(pixels, EncodingOf(config_.output));
+  const dataset::Encoding encoding = EncodingOf(config_.output);
+  return encoding.format == dataset::FileFormat::kPng ? dataset::ToSamples(pixels, encoding)
+                                                      : dataset::Quantise(pixels, encoding);
 }
 
 // The drawn scale, or the least larger one by which the crop fits: a set of photographs has all sizes, and

@@ -28,7 +28,8 @@ class CleanFrames {
 
   bool still() const;
 
-  // Frame t (config.first_frame .. ) with halo_px more on each side than the clip. A still is read once.
+  // Frame t (config.first_frame .. ) with halo_px more on each side than the clip, as the output's samples:
+  // CV_8U or CV_16U for PNG, CV_32F for EXR. A still is read once.
   cv::Mat Frame(int64_t t, int halo_px);
 
   // {"path", "sha256", "scale", "crop": [x, y, w, h], "flip", "start", ...}: what was chosen, for

@@ -7,6 +7,7 @@
 
 #include "sim/app/generate.h"
 #include "sim/app/job.h"
+#include "sim/app/plan_text.h"
 #include "sim/app/preview.h"
 
 namespace shimmer::app {
@@ -21,7 +22,13 @@ std::string PlanText(const std::filesystem::path& config_path, const std::vector
   Json drawn = Json::object();
   const Config config = file.Draw(static_cast<uint64_t>(clip), &drawn);
   const bool still = config.source.video.empty() && config.source.sequence.empty();
-  return Json{{"clip", clip}, {"drawn", drawn}, {"plan", PlanJson(PlanOf(config, still))}}.dump(2) + "\n";
+  const sim::ClipPlan plan = PlanOf(config, still);
+  return Json{{"clip", clip},
+              {"drawn", drawn},
+              {"plan", PlanJson(plan)},
+              {"skipped", SkippedLines(config, plan)}}
+             .dump(2) +
+         "\n";
 }
 
 void Print(const std::string& text) {

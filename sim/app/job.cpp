@@ -1,36 +1,9 @@
 #include "sim/app/job.h"
 
-#include <type_traits>
-
 #include "sim/app/clean_frames.h"
 #include "sim/dataset/files.h"
 
 namespace shimmer::app {
-namespace {
-
-// A struct with Fields, as a JSON object.
-class ToJson {
- public:
-  template <class Value>
-  void operator()(const Field& field, const Value& value) {
-    if constexpr (std::is_enum_v<Value>)
-      object[field.name] = field.names.at(static_cast<size_t>(value));
-    else
-      object[field.name] = value;
-  }
-  Json object = Json::object();
-};
-
-template <class Part>
-Json PartJson(const std::optional<Part>& part) {
-  if (!part) return nullptr;
-  ToJson json;
-  Part::Fields(*part, json);
-  return json.object;
-}
-
-}  // namespace
-
 ConfigFile LoadConfig(const std::filesystem::path& path, std::span<const std::string> sets) {
   std::vector<uint8_t> bytes;
   try {
@@ -85,12 +58,6 @@ sim::Scene SceneOf(const Config& config, bool still) {
 
 sim::ClipPlan PlanOf(const Config& config, bool still) {
   return sim::PlanClip(SceneOf(config, still), ShapeOf(config), config.accuracy);
-}
-
-Json PlanJson(const sim::ClipPlan& plan) {
-  return {{"tilt", PartJson(plan.tilt)},       {"blur", PartJson(plan.blur)},
-          {"linear_light", plan.linear_light}, {"read_once", plan.read_once},
-          {"render_once", plan.render_once},   {"halo_px", plan.halo_px}};
 }
 
 }  // namespace shimmer::app

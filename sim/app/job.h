@@ -39,7 +39,4 @@ sim::ClipShape ShapeOf(const Config& config);
 sim::Scene SceneOf(const Config& config, bool still);
 sim::ClipPlan PlanOf(const Config& config, bool still);
 
-// {"tilt": {...} or null, "blur": {...} or null, "halo_px": ..., ...}: null is skipped.
-Json PlanJson(const sim::ClipPlan& plan);
-
 }  // namespace shimmer::app

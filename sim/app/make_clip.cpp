@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/app/clean_frames.h"
+#include "sim/app/plan_text.h"
 #include "sim/clip.h"
 #include "sim/dataset/pixel_hash.h"
 
@@ -57,25 +59,16 @@ dataset::ClipFile TruthFile(std::string path, const sim::FrameTruth& frame,
 // What the manifest says of the turbulence itself.
 class FieldStatistics {
  public:
-  void Add(const sim::FrameTruth& frame) {
-    // Pixel by pixel: OpenCV's sums depend on the CPU in their last digits.
-    double tilt2 = 0, sigma = 0;
-    for (int y = 0; y < frame.sigma.rows; ++y)
-      for (int x = 0; x < frame.sigma.cols; ++x) {
-        const cv::Vec2d d = frame.tilt.at<cv::Vec2f>(y, x);
-        tilt2 += d[0] * d[0] + d[1] * d[1];
-        sigma += frame.sigma.at<float>(y, x);
-      }
-    const double pixels = static_cast<double>(frame.sigma.total());
-    tilt2_ += tilt2 / (2 * pixels);
-    sigma_ += sigma / pixels;
+  void Add(const sim::RenderedFrame& frame) {
+    tilt_square_px2_ += frame.tilt_square_px2;
+    sigma_px_ += frame.mean_sigma_px;
     ++frames_;
   }
-  double tilt_rms_px() const { return std::sqrt(tilt2_ / frames_); }
-  double mean_sigma_px() const { return sigma_ / frames_; }
+  double tilt_rms_px() const { return std::sqrt(tilt_square_px2_ / frames_); }
+  double mean_sigma_px() const { return sigma_px_ / frames_; }
 
  private:
-  double tilt2_ = 0, sigma_ = 0;
+  double tilt_square_px2_ = 0, sigma_px_ = 0;
   int frames_ = 0;
 };
 
@@ -90,20 +83,24 @@ MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, J
   const sim::ClipPlan plan = PlanOf(config, clean.still());
   const sim::ClipRenderer renderer(scene, plan, key);
   line["plan"] = PlanJson(plan);
-  if (renderer.tilt_field()) {
-    line["tilt.origin_x"] = OriginsJson(renderer.tilt_field()->x().octaves(), config.tilt.lattice);
-    line["tilt.origin_y"] = OriginsJson(renderer.tilt_field()->y().octaves(), config.tilt.lattice);
+  const sim::ClipFields& fields = renderer.fields();
+  if (fields.tilt()) {
+    line["tilt.origin_x"] = OriginsJson(fields.tilt()->x().octaves(), config.tilt.lattice);
+    line["tilt.origin_y"] = OriginsJson(fields.tilt()->y().octaves(), config.tilt.lattice);
   }
-  if (renderer.blur_noise())
-    line["blur.origin"] = OriginsJson(renderer.blur_noise()->octaves().octaves(), config.tilt.lattice);
+  if (fields.blur_noise())
+    line["blur.origin"] = OriginsJson(fields.blur_noise()->octaves().octaves(), config.tilt.lattice);
 
   const dataset::Layout layout = job.Layout();
   const dataset::Encoding encoding = EncodingOf(config.output);
   const bool one_clean_file = plan.read_once && layout.kind == dataset::LayoutKind::kSequence;
   const std::vector<int64_t> times = KeptFrames(config);
+  const bool with_truth = !config.output.truth.empty();
   MadeClip made;
   FieldStatistics statistics;
   dataset::ClipFile turb, truth, clean_file;  // of the last frame that was computed
+  std::optional<sim::CleanFrame> prepared;
+  sim::RenderedFrame rendered;
   for (size_t k = 0; k < times.size(); ++k) {
     if (stop) throw Interrupted();
     const auto path = [&](dataset::FrameKind kind) {
@@ -111,10 +108,11 @@ MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, J
     };
     if (k == 0 || !plan.render_once) {
       const cv::Mat frame = clean.Frame(times[k], plan.halo_px);
-      const sim::RenderedFrame rendered = renderer.Render(times[k], frame);
-      statistics.Add(rendered.truth);
+      if (k == 0 || !plan.read_once) prepared.emplace(renderer.Prepare(frame));
+      renderer.Render(times[k], *prepared, with_truth, rendered);
+      statistics.Add(rendered);
       turb = PictureFile("", rendered.turb, encoding);
-      if (!config.output.truth.empty()) truth = TruthFile("", rendered.truth, config.output.truth);
+      if (with_truth) truth = TruthFile("", *rendered.truth, config.output.truth);
       if (k == 0 || !plan.read_once)
         clean_file = PictureFile("", frame(cv::Rect({plan.halo_px, plan.halo_px}, config.size)), encoding);
     }
@@ -124,7 +122,7 @@ MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, J
     };
     keep(turb, dataset::FrameKind::kTurb);
     if (k == 0 || !one_clean_file) keep(clean_file, dataset::FrameKind::kClean);
-    if (!config.output.truth.empty()) keep(truth, dataset::FrameKind::kTruth);
+    if (with_truth) keep(truth, dataset::FrameKind::kTruth);
   }
   line["source"] = clean.record();
   line["tilt_rms_px"] = statistics.tilt_rms_px();

@@ -9,7 +9,7 @@
 #include "sim/app/clean_frames.h"
 #include "sim/app/job.h"
 #include "sim/app/sheet.h"
-#include "sim/clip.h"
+#include "sim/clip_fields.h"
 #include "sim/colour.h"
 #include "sim/dataset/dataset_reader.h"
 #include "sim/dataset/files.h"
@@ -89,9 +89,9 @@ class Previewer {
     if (tilt && sigma) {
       row.tilt = *tilt, row.sigma = *sigma;
     } else if (same_engine_) {  // the fields of another engine would not be those of these pictures
-      const sim::ClipRenderer renderer(SceneOf(config, true), PlanOf(config, true),
-                                       {config.seed, static_cast<uint64_t>(clip)});
-      const sim::FrameTruth truth = renderer.Truth(TimeOf(config, frame, frames));
+      const sim::ClipFields fields(SceneOf(config, true), PlanOf(config, true),
+                                   {config.seed, static_cast<uint64_t>(clip)});
+      const sim::FrameTruth truth = fields.Truth(TimeOf(config, frame, frames));
       row.tilt = truth.tilt, row.sigma = truth.sigma;
     }
     return row;

@@ -56,7 +56,9 @@ struct Encoding {
 // image:
 //   PNG: image in [0, 1] (clamped, NaN is 0) times 255 or 65535, to the nearest integer, ties to the even
 //   one; EXR: NaN is 0, clamped to +-kMaxSample; half to the nearest, ties to even.
-// Throws std::invalid_argument if image is empty or not float32, or if the format has no such bits.
+// An image that is a PNG's samples already (CV_8U for 8 bits, CV_16U for 16) is given back as it is.
+// The result is continuous in memory.
+// Throws std::invalid_argument if image is empty or of another type, or if the format has no such bits.
 cv::Mat ToSamples(const cv::Mat& image, Encoding encoding);
 
 // What reading a file with these samples gives: float32.

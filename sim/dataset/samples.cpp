@@ -53,9 +53,11 @@ cv::Mat Finite(const cv::Mat& image) {
 }  // namespace
 
 cv::Mat ToSamples(const cv::Mat& image, Encoding encoding) {
-  if (image.empty() || image.depth() != CV_32F)
-    throw std::invalid_argument("a picture must be float32 and not empty");
   const bool png = encoding.format == FileFormat::kPng;
+  const int integers = encoding.bits == 8 ? CV_8U : CV_16U;
+  if (png && !image.empty() && image.depth() == integers) return image.isContinuous() ? image : image.clone();
+  if (image.empty() || image.depth() != CV_32F)
+    throw std::invalid_argument("a picture must be float32, or a PNG's own integers, and not empty");
   if (png && encoding.bits == 8) return ToIntegers<uint8_t>(image, CV_8U, 255);
   if (png && encoding.bits == 16) return ToIntegers<uint16_t>(image, CV_16U, 65535);
   if (!png && encoding.bits == 32) return Finite(image);

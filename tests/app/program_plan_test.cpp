@@ -28,7 +28,7 @@ TEST_F(Plans, ShowWhatIsSkipped) {
   EXPECT_FALSE(full.at("render_once"));
   EXPECT_FALSE(full.at("linear_light"));
   // Strength 5 and the warp's reach; six sigma, as the exact Gaussian has it.
-  EXPECT_EQ(full.at("halo_px"), 5 + 3 + 6);
+  EXPECT_EQ(full.at("halo_px"), 5 + 2 + 6);
 
   EXPECT_TRUE(PlanOf({{"tilt", {{"strength_px", 0}}}}).at("plan").at("tilt").is_null());
   EXPECT_TRUE(PlanOf({{"blur", {{"max_sigma_px", 0}}}}).at("plan").at("blur").is_null());

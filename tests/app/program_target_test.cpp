@@ -106,7 +106,10 @@ TEST(Target, IsMadeWithItsParents) {
 // One writer at a time: the other says so, and both sets are whole in the end.
 TEST(Target, HasOneWriterAtATime) {
   const TempFolder folder;
-  folder.Put("c.json", SmallConfig({{"clips", 40}, {"size", {200, 160}}, {"blur", {{"max_sigma_px", 3}}}}));
+  // slow enough for the second to find the first at work
+  folder.Put("c.json", SmallConfig({{"clips", 40},
+                                    {"size", {200, 160}},
+                                    {"blur", {{"max_sigma_px", 4}, {"method", "exact"}}}}));
   const Words command = {"generate", "c.json", "--out", "set", "--quiet"};
   Running first(folder.path(), command);
   WaitUntil([&] { return fs::exists(folder / "set/manifest.jsonl"); });

@@ -1,4 +1,5 @@
 #include "sim/dataset/image_io.h"
+#include "sim/dataset/pixel_hash.h"
 
 #include <OpenImageIO/imageio.h>
 
@@ -181,6 +182,19 @@ TEST(ImageIo, ExrIsCompressedByZips) {
   EXPECT_EQ(input->spec().format, OIIO::TypeHalf);
 }
 
+// Samples need not be made of floats: those of a PNG are written as they are, also from within a larger
+// picture.
+TEST(ImageIo, WritesAPngsOwnSamples) {
+  for (int bits : {8, 16}) {
+    const Encoding encoding{FileFormat::kPng, bits};
+    const cv::Mat samples = ToSamples(RandomImage({21, 13}, 3, 5), encoding);
+    for (const cv::Mat& part : {samples, cv::Mat(samples(cv::Rect(3, 2, 9, 7)))}) {
+      EXPECT_EQ(EncodeImage(part, encoding), EncodeImage(FromSamples(part), encoding));
+      EXPECT_EQ(PixelHash(part, encoding), PixelHash(FromSamples(part), encoding));
+    }
+  }
+}
+
 TEST(ImageIo, WrongArguments) {
   const cv::Mat image = RandomImage({2, 2}, 3, 5), two = RandomImage({2, 2}, 2, 5);
   const std::vector<std::string> names = {"R", "G"};
@@ -188,7 +202,9 @@ TEST(ImageIo, WrongArguments) {
   EXPECT_THROW(EncodePng(image, 32), std::invalid_argument);
   EXPECT_THROW(EncodePng(two, 8), std::invalid_argument);
   EXPECT_THROW(EncodePng(cv::Mat(), 8), std::invalid_argument);
-  EXPECT_THROW(EncodePng(cv::Mat(2, 2, CV_8UC3), 8), std::invalid_argument);
+  EXPECT_THROW(EncodePng(cv::Mat(2, 2, CV_8UC3), 16), std::invalid_argument);
+  EXPECT_THROW(EncodePng(cv::Mat(2, 2, CV_16UC3), 8), std::invalid_argument);
+  EXPECT_THROW(EncodeExr(cv::Mat(2, 2, CV_16UC2), 16, names), std::invalid_argument);
   EXPECT_THROW(EncodeExr(image, 8, names), std::invalid_argument);
   EXPECT_THROW(EncodeExr(image, 32, names), std::invalid_argument);
 }

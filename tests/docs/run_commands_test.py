@@ -74,7 +74,7 @@ class RunCommands(unittest.TestCase):
         self.assert_fault("link to gone.md", "[words](gone.md)")
         self.assert_fault("names sim/gone.h", "as in sim/gone.h")
         self.assert_fault("names the test Warp.IsGone", "see `Warp.IsGone`")
-        self.run_text("[words](https://example.org/x), sim/warp.h, `Warp.EqualsItsDoubleTwin`")
+        self.run_text("[words](https://example.org/x), sim/warp.h, `Warp.EqualsItsDoubleTwinOnNoise`")
 
     def test_a_missing_module_is_skipped_and_its_output_too(self):
         skipped, _ = self.run_text(page(("python", "import no_such_module_as_this"), ("text output", "x")))

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include "sim/error_budget.h"
 
 namespace shimmer::sim {
 namespace {
@@ -66,20 +69,68 @@ TEST(PlanClip, NeedsOnlyThePartsOfTheSigmaMapThatCount) {
 // The budget decides: exact where less than a ladder's error is allowed, and where the config says so.
 TEST(PlanClip, ChoosesTheBlurWithinTheBudget) {
   Scene scene;
-  const auto way = [&](double max_error_levels) {
-    return PlanClip(scene, kShape, {.max_error_levels = max_error_levels}).blur->way;
+  const auto blur = [&](double max_error_levels) {
+    return *PlanClip(scene, kShape, {.max_error_levels = max_error_levels}).blur;
   };
-  EXPECT_EQ(way(0), BlurWay::kExact);
-  EXPECT_EQ(way(0.09), BlurWay::kExact);
-  EXPECT_EQ(way(0.1), BlurWay::kLadder);
-  EXPECT_EQ(way(255), BlurWay::kLadder);
+  const auto is_ladder = [](const BlurPlan& plan, LadderGrade grade) {
+    return plan.way == BlurWay::kLadder && plan.grade == grade;
+  };
+  EXPECT_EQ(blur(0).way, BlurWay::kExact);
+  EXPECT_EQ(blur(0.02).way, BlurWay::kExact);
+  EXPECT_TRUE(is_ladder(blur(0.05), LadderGrade::kFine));
+  EXPECT_TRUE(is_ladder(blur(0.1), LadderGrade::kStandard));
+  EXPECT_TRUE(is_ladder(blur(255), LadderGrade::kCoarse));
   scene.colour = Colour::kLinear;  // encoding makes more of errors in the dark
-  EXPECT_EQ(way(0.1), BlurWay::kExact);
-  EXPECT_EQ(way(0.3), BlurWay::kLadder);
-  scene.blur.method = BlurMethod::kExact;
-  EXPECT_EQ(way(255), BlurWay::kExact);
-  scene.blur.method = BlurMethod::kStack;
-  EXPECT_EQ(way(0), BlurWay::kStack);
+  EXPECT_EQ(blur(0.05).way, BlurWay::kExact);
+  EXPECT_TRUE(is_ladder(blur(0.15), LadderGrade::kFine));
+  EXPECT_TRUE(is_ladder(blur(0.25), LadderGrade::kStandard));
+  for (double levels : {0.05, 0.1, 0.5}) {
+    scene.blur.method = BlurMethod::kExact;
+    EXPECT_EQ(blur(levels).way, BlurWay::kExact);
+    scene.blur.method = BlurMethod::kStack;
+    EXPECT_EQ(blur(levels).way, BlurWay::kStack);
+  }
+}
+
+// Fields spend no more than what they are given: the tilt its pixels, and what the sigma map leaves it.
+TEST(PlanClip, FieldsStayWithinTheirShares) {
+  Scene scene;
+  scene.tilt.base_frequency = scene.blur.base_frequency = 1.0 / 64;
+  scene.blur.max_sigma_px = 8;
+  const ClipShape shape{.size = {1920, 1080}, .frames = 16};
+  for (double px : {0.0, 0.001, 0.01, 0.05, 0.3})
+    for (double levels : {0.0, 0.05, 0.1, 0.2, 1.0}) {
+      const ClipPlan plan = PlanClip(scene, shape, {.max_error_px = px, .max_error_levels = levels});
+      EXPECT_LE(plan.tilt->field.max_error, px);
+      const double sigma = std::hypot(plan.tilt->field.rms_error * LevelsPerTiltPx(scene, shape.size),
+                                      plan.blur->field.rms_error * LevelsPerNoise(scene.blur, shape.size));
+      const double ladder = plan.blur->way == BlurWay::kLadder ? PromiseOf(plan.blur->grade).levels : 0;
+      EXPECT_NEAR(std::hypot(ladder, sigma), plan.blur->promised_levels, 1e-9);
+      EXPECT_LE(plan.blur->promised_levels, levels * (1 + 1e-9)) << px;
+    }
+  // A frame that sees little of the map may have the worst of it everywhere.
+  EXPECT_GT(LevelsPerNoise(scene.blur, {64, 64}), LevelsPerNoise(scene.blur, shape.size));
+  EXPECT_GT(LevelsPerTiltPx(scene, {64, 64}), LevelsPerTiltPx(scene, shape.size));
+  // Where sigma does not depend on the tilt, the tilt may err as much as its own budget allows.
+  scene.blur.tilt_weight = 0;
+  EXPECT_GT(PlanClip(scene, shape, {.max_error_px = 0.3, .max_error_levels = 0}).tilt->field.max_error, 0.05);
+}
+
+// A sigma that nobody can see is none: by the budget, and at the exact one by a float's last bit.
+TEST(PlanClip, LeavesOutWhatCannotBeSeen) {
+  Scene scene;
+  const auto blurs = [&](double sigma_px, double max_error_levels) {
+    scene.blur.max_sigma_px = sigma_px;
+    return PlanClip(scene, kShape, {.max_error_levels = max_error_levels}).blur.has_value();
+  };
+  EXPECT_FALSE(blurs(0.15, 0));
+  EXPECT_TRUE(blurs(0.17, 0));
+  EXPECT_FALSE(blurs(0.25, 0.2));
+  EXPECT_TRUE(blurs(0.35, 0.2));
+  EXPECT_TRUE(blurs(0.6, 255));
+  scene.blur.method = BlurMethod::kExact;  // as it says
+  EXPECT_TRUE(blurs(0.25, 0.2));
+  EXPECT_FALSE(blurs(0.15, 0.2));
 }
 
 TEST(PlanClip, MarginsHoldEveryRead) {
@@ -87,12 +138,12 @@ TEST(PlanClip, MarginsHoldEveryRead) {
   scene.tilt.strength_px = 4.5, scene.blur.max_sigma_px = 3;
   scene.blur.method = BlurMethod::kExact;
   const ClipPlan plan = PlanClip(scene, kShape, {});
-  EXPECT_EQ(plan.tilt->margin_px, 8);
+  EXPECT_EQ(plan.tilt->margin_px, 7);
   EXPECT_EQ(plan.blur->margin_px, 18);
-  EXPECT_EQ(plan.halo_px, 26);
+  EXPECT_EQ(plan.halo_px, 25);
   scene.tilt.kernel = 0.5;  // |n| reaches 1.084: 4.88 px
   scene.tilt.strength_px = 5;
-  EXPECT_EQ(PlanClip(scene, kShape, {}).tilt->margin_px, 9);
+  EXPECT_EQ(PlanClip(scene, kShape, {}).tilt->margin_px, 8);
 }
 
 TEST(PlanClip, IsAValue) {

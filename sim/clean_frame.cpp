@@ -1,0 +1,86 @@
+#include "sim/clean_frame.h"
+
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "sim/colour.h"
+#include "sim/pack_rows.h"
+#include "sim/warp.h"
+
+namespace shimmer::sim {
+namespace {
+
+template <class Sample>
+bool ChannelsAreEqual(const cv::Mat& rgb) {
+  for (int y = 0; y < rgb.rows; ++y) {
+    const Sample* row = rgb.ptr<Sample>(y);
+    bool equal = true;
+    for (int x = 0; x < rgb.cols; ++x, row += 3) equal &= row[0] == row[1] && row[1] == row[2];
+    if (!equal) return false;
+  }
+  return true;
+}
+
+bool IsGrey(const cv::Mat& samples) {
+  if (samples.channels() == 1) return true;
+  switch (samples.depth()) {
+    case CV_8U:
+      return ChannelsAreEqual<uint8_t>(samples);
+    case CV_16U:
+      return ChannelsAreEqual<uint16_t>(samples);
+    default:
+      return ChannelsAreEqual<float>(samples);
+  }
+}
+
+void RequireFiniteLight(const cv::Mat& frame) {
+  for (int y = 0; y < frame.rows; ++y) {
+    const float* row = frame.ptr<float>(y);
+    for (int i = 0; i < frame.cols * frame.channels(); ++i)
+      if (!(std::abs(row[i]) <= kMostLight))
+        throw std::invalid_argument("clean frame: a sample of pixel (" +
+                                    std::to_string(i / frame.channels()) + ", " + std::to_string(y) +
+                                    ") is " + std::to_string(row[i]) + ", must be in [-65504, 65504]");
+  }
+}
+
+cv::Mat Checked(const cv::Mat& samples) {
+  const int depth = samples.depth(), channels = samples.channels();
+  if (samples.empty() || (depth != CV_8U && depth != CV_16U && depth != CV_32F) ||
+      (channels != 1 && channels != 3))
+    throw std::invalid_argument("clean frame of type " + cv::typeToString(samples.type()) +
+                                ", must be CV_8U, CV_16U or CV_32F with 1 or 3 channels");
+  if (depth == CV_32F) RequireFiniteLight(samples);
+  return samples;
+}
+
+// Without OpenCV's conversions, whose last bit depends on the CPU.
+cv::Mat ToFloat(const cv::Mat& samples) {
+  cv::Mat light(samples.size(), CV_32FC(samples.channels()));
+  const cv::Mat one_channel = samples.reshape(1);
+  const auto count = static_cast<size_t>(one_channel.cols);
+  for (int y = 0; y < samples.rows; ++y) {
+    float* const row = light.ptr<float>(y);
+    UnpackRow(one_channel, {0, y}, count, &row);
+  }
+  return light;
+}
+
+cv::Mat LightOf(const cv::Mat& samples, bool grey, bool linear_light) {
+  cv::Mat light = samples;
+  if (grey && samples.channels() == 3) cv::extractChannel(samples, light, 0);
+  return linear_light ? DecodeSrgb(ToFloat(light)) : light;
+}
+
+}  // namespace
+
+CleanFrame::CleanFrame(const cv::Mat& given, const ClipPlan& plan)
+    : samples(Checked(given)),
+      constant(samples),
+      grey(IsGrey(samples)),
+      light(LightOf(samples, grey, plan.linear_light)),
+      source(plan.tilt ? PrepareForWarp(light) : cv::Mat()) {}
+
+}  // namespace shimmer::sim
