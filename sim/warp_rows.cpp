@@ -28,25 +28,25 @@ struct Places {
 using Sixteenth = hn::CappedTag<float, 16>;
 
 // Weights of the four neighbours, t the fraction of a place in [0, 1).
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void WeightsOf(D d, V t, Interpolation interpolation, V& w0, V& w1, V& w2, V& w3) {
+template <Interpolation interpolation, class D, class V = hn::Vec<D>>
+HWY_INLINE void WeightsOf(D d, V t, V& w0, V& w1, V& w2, V& w3) {
   const auto c = [&](float v) HWY_ATTR { return hn::Set(d, v); };
-  if (interpolation == Interpolation::kBicubic) {
+  if constexpr (interpolation == Interpolation::kBicubic) {
     const V t2 = hn::Mul(t, t), half_t = hn::Mul(t, c(0.5f)), half_t2 = hn::Mul(t2, c(0.5f));
     w0 = hn::Mul(half_t, hn::Sub(hn::Mul(hn::Sub(c(2), t), t), c(1)));
     w1 = hn::Add(hn::Mul(half_t2, hn::Sub(hn::Mul(t, c(3)), c(5))), c(1));
     w2 = hn::Mul(half_t, hn::Add(hn::Mul(hn::Sub(c(4), hn::Mul(t, c(3))), t), c(1)));
     w3 = hn::Mul(half_t2, hn::Sub(t, c(1)));
   } else {
-    const bool nearest = interpolation == Interpolation::kNearest;
+    constexpr bool kNearest = interpolation == Interpolation::kNearest;
     w0 = w3 = hn::Zero(d);
-    w2 = nearest ? hn::IfThenElseZero(hn::Ge(t, c(0.5f)), c(1)) : t;
+    w2 = kNearest ? hn::IfThenElseZero(hn::Ge(t, c(0.5f)), c(1)) : t;
     w1 = hn::Sub(c(1), w2);
   }
 }
 
-template <bool kByPixel>
-HWY_INLINE void FindPlaces(const float* shifts, size_t count, Interpolation interpolation, Places& places) {
+template <Interpolation interpolation, bool kByPixel>
+void FindPlaces(const float* shifts, size_t count, Places& places) {
   const hn::ScalableTag<float> d;
   const hn::RebindToSigned<decltype(d)> di;
   float padded[kBlock];
@@ -57,7 +57,7 @@ HWY_INLINE void FindPlaces(const float* shifts, size_t count, Interpolation inte
   for (size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
     const auto shift = hn::LoadU(d, shifts + i), whole = hn::Floor(shift);
     auto w0 = shift, w1 = shift, w2 = shift, w3 = shift;
-    WeightsOf(d, hn::Sub(shift, whole), interpolation, w0, w1, w2, w3);
+    WeightsOf<interpolation>(d, hn::Sub(shift, whole), w0, w1, w2, w3);
     hn::Store(hn::ConvertTo(di, whole), di, places.whole + i);
     float* to = places.weights + (kByPixel ? 4 * i : i);
     if constexpr (kByPixel) {
@@ -68,6 +68,26 @@ HWY_INLINE void FindPlaces(const float* shifts, size_t count, Interpolation inte
       hn::Store(w2, d, to + 2 * kBlock);
       hn::Store(w3, d, to + 3 * kBlock);
     }
+  }
+}
+
+// How a row's places are found, chosen once for all of it.
+struct Finder {
+  void (*x)(const float* shifts, size_t count, Places& places);
+  void (*y)(const float* shifts, size_t count, Places& places);
+};
+
+template <Interpolation interpolation>
+constexpr Finder kFinder = {FindPlaces<interpolation, true>, FindPlaces<interpolation, false>};
+
+Finder FinderOf(Interpolation interpolation) {
+  switch (interpolation) {
+    case Interpolation::kNearest:
+      return kFinder<Interpolation::kNearest>;
+    case Interpolation::kBilinear:
+      return kFinder<Interpolation::kBilinear>;
+    default:
+      return kFinder<Interpolation::kBicubic>;
   }
 }
 
@@ -165,14 +185,14 @@ HWY_INLINE void GreySums(const cv::Mat& source, cv::Point first, const Places& x
 // Block after block: places and weights, four sums a pixel, and the planes.
 template <class T, size_t kPlanes>
 HWY_INLINE void WarpRowOf(const cv::Mat& source, cv::Point first, std::span<const float> dx,
-                          std::span<const float> dy, Interpolation interpolation, float* const* planes) {
+                          std::span<const float> dy, const Finder& find, float* const* planes) {
   const hn::ScalableTag<float> d;
   Places x, y;
   alignas(64) float sums[4 * kBlock] = {}, rest[kPlanes][kBlock];
   for (size_t begin = 0; begin < dx.size(); begin += kBlock) {
     const size_t count = std::min(kBlock, dx.size() - begin);
-    FindPlaces<true>(dx.data() + begin, count, interpolation, x);
-    FindPlaces<false>(dy.data() + begin, count, interpolation, y);
+    find.x(dx.data() + begin, count, x);
+    find.y(dy.data() + begin, count, y);
     const cv::Point here(first.x + static_cast<int>(begin), first.y);
     float* to[kPlanes];
     for (size_t c = 0; c < kPlanes; ++c) to[c] = count == kBlock ? planes[c] + begin : rest[c];
@@ -198,19 +218,20 @@ HWY_INLINE void WarpRowOf(const cv::Mat& source, cv::Point first, std::span<cons
 
 void WarpRow(const cv::Mat& source, cv::Point first, std::span<const float> dx, std::span<const float> dy,
              Interpolation interpolation, float* const* planes) {
+  const Finder find = FinderOf(interpolation);
   switch (source.type()) {
     case CV_8UC1:
-      return WarpRowOf<uint8_t, 1>(source, first, dx, dy, interpolation, planes);
+      return WarpRowOf<uint8_t, 1>(source, first, dx, dy, find, planes);
     case CV_8UC4:
-      return WarpRowOf<uint8_t, 3>(source, first, dx, dy, interpolation, planes);
+      return WarpRowOf<uint8_t, 3>(source, first, dx, dy, find, planes);
     case CV_16UC1:
-      return WarpRowOf<uint16_t, 1>(source, first, dx, dy, interpolation, planes);
+      return WarpRowOf<uint16_t, 1>(source, first, dx, dy, find, planes);
     case CV_16UC4:
-      return WarpRowOf<uint16_t, 3>(source, first, dx, dy, interpolation, planes);
+      return WarpRowOf<uint16_t, 3>(source, first, dx, dy, find, planes);
     case CV_32FC1:
-      return WarpRowOf<float, 1>(source, first, dx, dy, interpolation, planes);
+      return WarpRowOf<float, 1>(source, first, dx, dy, find, planes);
     case CV_32FC4:
-      return WarpRowOf<float, 3>(source, first, dx, dy, interpolation, planes);
+      return WarpRowOf<float, 3>(source, first, dx, dy, find, planes);
   }
   throw std::invalid_argument("a frame of type " + cv::typeToString(source.type()) +
                               " was not prepared for warping");
