@@ -43,8 +43,12 @@ dataset::Layout Job::Layout() const {
           .digits = dataset::PairDigits(config.fixed().clips, output.frames_per_clip)};
 }
 
+int KeptFrameCount(const Config& config) {
+  return config.output.layout == LayoutKind::kPairs ? config.output.frames_per_clip : config.frames;
+}
+
 sim::ClipShape ShapeOf(const Config& config) {
-  return {.size = config.size, .frames = config.frames, .first_frame = config.first_frame};
+  return {.size = config.size, .frames = KeptFrameCount(config), .first_frame = config.first_frame};
 }
 
 sim::Scene SceneOf(const Config& config, bool still) {

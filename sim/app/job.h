@@ -33,6 +33,10 @@ struct Job {
   dataset::Layout Layout() const;
 };
 
+// How many of a clip's frames are rendered and kept: all, or for pairs frames_per_clip of them.
+int KeptFrameCount(const Config& config);
+
+// frames: those that are kept.
 sim::ClipShape ShapeOf(const Config& config);
 
 // The scene that a clip's values mean, and its plan.

@@ -26,7 +26,7 @@ Json OriginsJson(const std::vector<noise::Octave>& octaves, sim::LatticeKind lat
 
 // The frames of a clip that are kept: all, or for pairs frames_per_clip of them, evenly spread.
 std::vector<int64_t> KeptFrames(const Config& config) {
-  const int kept = config.output.layout == LayoutKind::kPairs ? config.output.frames_per_clip : config.frames;
+  const int kept = KeptFrameCount(config);
   std::vector<int64_t> frames;
   for (int64_t k = 0; k < kept; ++k) frames.push_back(config.first_frame + k * config.frames / kept);
   return frames;

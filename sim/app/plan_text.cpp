@@ -120,9 +120,11 @@ std::vector<std::string> SkippedLines(const Config& config, const sim::ClipPlan&
   AddBlur(config, plan, lines);
   if (plan.render_once) lines.push_back("rendering, all frames but one: nothing moves");
   if (plan.read_once) lines.push_back("source, all frames but one: it is a still, decoded once");
-  const int64_t last = plan.shape.first_frame + plan.shape.frames - 1;
-  lines.push_back("frames before " + std::to_string(plan.shape.first_frame) + " and after " +
-                  std::to_string(last));
+  lines.push_back("frames before " + std::to_string(config.first_frame) + " and after " +
+                  std::to_string(config.first_frame + config.frames - 1));
+  if (plan.shape.frames < config.frames)
+    lines.push_back("all but " + std::to_string(plan.shape.frames) + " of " + std::to_string(config.frames) +
+                    " frames: pairs keep no more");
   lines.push_back("source further than " + Px(plan.halo_px) + " from the crop");
   lines.push_back(
       "source, where it has it: alpha; two of three equal channels; tilt and blur of regions of one colour");

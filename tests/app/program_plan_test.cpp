@@ -42,6 +42,27 @@ TEST_F(Plans, ShowWhatIsSkipped) {
   EXPECT_TRUE(frozen.at("render_once"));
 }
 
+// Each thing that is not computed has a line; slow octaves pay for key frames only if enough frames are kept.
+TEST_F(Plans, SayWhatIsSkipped) {
+  const Json slow = {{"frames", 64},
+                     {"size", {128, 96}},
+                     {"tilt", {{"kernel", 0.5}, {"temporal_scale", 0.02}, {"octaves", 4}}},
+                     {"blur", {{"max_sigma_px", 0}}},
+                     {"accuracy", {{"max_error_px", 1}}}};
+  const Json all = PlanOf(slow).at("skipped");
+  EXPECT_THAT(all.dump(), testing::HasSubstr("all but one frame in"));
+  EXPECT_THAT(all.dump(), testing::HasSubstr("blur: blur.max_sigma_px is 0"));
+  EXPECT_THAT(all.dump(), testing::HasSubstr("frames before 0 and after 63"));
+  Json pairs = slow;
+  pairs["output"] = {{"layout", "pairs"}, {"frames_per_clip", 1}};
+  const Json one = PlanOf(pairs).at("skipped");
+  EXPECT_THAT(one.dump(), testing::Not(testing::HasSubstr("all but one frame in")));
+  EXPECT_THAT(one.dump(), testing::HasSubstr("all but 1 of 64 frames"));
+  const Json none = PlanOf({{"tilt", {{"strength_px", 0}}}, {"blur", {{"max_sigma_px", 0.2}}}}).at("skipped");
+  EXPECT_THAT(none.dump(), testing::HasSubstr("tilt: tilt.strength_px is 0"));
+  EXPECT_THAT(none.dump(), testing::HasSubstr("sigma up to 0.2 px can't be seen"));
+}
+
 // The plan of a clip is that of its manifest line, with the values that are drawn for it.
 TEST_F(Plans, AreTheManifests) {
   const Json config = {{"tilt", {{"strength_px", {{"uniform", {1, 9}}}}}}};
