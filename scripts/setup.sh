@@ -10,7 +10,7 @@ required=(
   g++ cmake ninja-build pkg-config ccache git
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev libopencv-dev
   libopenimageio-dev openimageio-tools libopenexr-dev  # OpenImageIO's CMake files name its programs
-  libtbb-dev libhwy-dev nlohmann-json3-dev libcli11-dev libssl-dev zlib1g-dev
+  libtbb-dev libhwy-dev nlohmann-json3-dev libcli11-dev libssl-dev zlib1g-dev libarchive-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3
 )

@@ -61,9 +61,7 @@ CleanFrames::CleanFrames(const SourceList& sources, const Config& config, sim::C
   record_["start"] = start_;
 }
 
-bool CleanFrames::still() const {
-  return sources_.kind() == SourceKind::kImages || sources_.kind() == SourceKind::kDrawn;
-}
+bool CleanFrames::still() const { return sources_.still(); }
 
 cv::Mat CleanFrames::Frame(int64_t t, int halo_px) {
   if (still() && halo_px == still_halo_px_) return still_frame_;

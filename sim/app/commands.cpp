@@ -7,8 +7,10 @@
 
 #include "sim/app/generate.h"
 #include "sim/app/job.h"
+#include "sim/app/merge.h"
 #include "sim/app/plan_text.h"
 #include "sim/app/preview.h"
+#include "sim/app/shard_option.h"
 
 namespace shimmer::app {
 namespace {
@@ -78,7 +80,25 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*lis
       ->allow_extra_args(false);
   generate_command->add_option("--threads", generate.threads, "number of threads (default: all)")
       ->check(CLI::Range(1, 4096));
+  generate_command
+      ->add_option("--memory", generate.memory_bytes,
+                   "what to keep within, sources included: 512M, 4G (default: 1G)")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(int64_t{1}, int64_t{1} << 50).description(""));
+  generate_command->add_option_function<std::string>(
+      "--shard", [&](const std::string& text) { generate.shard = ShardOf(text); },
+      "make a part: i/N, i from 0, or slurm (this task of a job array)");
+  generate_command->add_flag("--retry-failed", generate.retry_failed, "also clips that failed before");
+  generate_command->add_flag("--dry-run", generate.dry_run,
+                             "only say what it takes: clips, files, bytes, time and free space");
+  generate_command->add_flag("--wait", generate.wait, "wait while another process writes to the folder");
   generate_command->add_flag("--quiet", generate.quiet, "no progress");
+
+  MergeOptions merge;
+  CLI::App* merge_command =
+      app.add_subcommand("merge", "make one data set of shards, and say what is missing");
+  merge_command->add_option("DIR", merge.folder, "folder of the data set")->required();
+  merge_command->add_option("FROM", merge.from, "folders of shards (default: they wrote to DIR)");
 
   std::filesystem::path plan_config;
   std::vector<std::string> plan_sets;
@@ -107,6 +127,7 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*lis
     if (argc > 1 && argv[1][0] != '-') RequireCommand(app, argv[1]);
     app.parse(argc, argv);
     if (*generate_command) return config_path = &generate.config, Generate(generate, listen());
+    if (*merge_command) return Merge(merge);
     if (*plan_command) config_path = &plan_config, Print(PlanText(plan_config, plan_sets, plan_clip));
     if (*preview_command) Preview(preview);
     if (*keys_command) Print(KeysHelpText());

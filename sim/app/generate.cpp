@@ -1,78 +1,23 @@
 #include "sim/app/generate.h"
 
-#include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <iterator>
-#include <new>
-#include <opencv2/core.hpp>
-#include <optional>
+#include <memory>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
+#include "sim/app/clip_pipeline.h"
+#include "sim/app/finish.h"
 #include "sim/app/job.h"
-#include "sim/app/make_clip.h"
 #include "sim/app/progress.h"
+#include "sim/dataset/pending.h"
 
 namespace shimmer::app {
 namespace {
-
-// A clip on its way: made, or not for one of three reasons.
-struct Outcome {
-  int64_t clip;
-  std::optional<MadeClip> made;
-  Json line;
-  std::string error;            // its source is bad: noted, and the run goes on
-  std::exception_ptr run_ends;  // the machine's fault and not the clip's, which another run may make
-  bool interrupted = false;     // the person has asked to stop
-};
-
-std::exception_ptr NotEnoughMemory(int64_t clip) {
-  return std::make_exception_ptr(std::runtime_error(
-      "clip " + std::to_string(clip) + ": not enough memory; fewer --threads, frames or pixels need less"));
-}
-
-Outcome TryToMake(const Job& job, int64_t clip, const std::atomic<bool>& stop) {
-  Outcome outcome{.clip = clip, .made = {}, .line = Json::object(), .error = "", .run_ends = nullptr};
-  try {
-    outcome.made = MakeClip(job, clip, stop, outcome.line);
-  } catch (const Interrupted&) {
-    outcome.interrupted = true;
-  } catch (const std::runtime_error& error) {
-    outcome.error = error.what();
-  } catch (const std::bad_alloc&) {
-    outcome.run_ends = NotEnoughMemory(clip);
-  } catch (const cv::Exception& error) {
-    if (error.code == cv::Error::StsNoMem)
-      outcome.run_ends = NotEnoughMemory(clip);
-    else
-      outcome.error = error.what();
-  } catch (...) {
-    outcome.run_ends = std::current_exception();
-  }
-  // Asked to stop, a read may break off: that is no fault of its source.
-  if (stop && !outcome.made) outcome.interrupted = true;
-  return outcome;
-}
-
-std::vector<int64_t> ClipsToMake(const GenerateOptions& options, int64_t clips,
-                                 const dataset::DatasetWriter& writer) {
-  const std::set<int64_t> done = writer.done(), failed = writer.failed();
-  std::vector<int64_t> pending;
-  if (options.only_clips.empty()) {
-    for (int64_t clip = 0; clip < clips; ++clip)
-      if (!done.contains(clip) && !failed.contains(clip)) pending.push_back(clip);
-  } else {  // a failed clip that is asked for by its number is tried again
-    for (int64_t clip : std::set<int64_t>(options.only_clips.begin(), options.only_clips.end()))
-      if (!done.contains(clip)) pending.push_back(clip);
-  }
-  return pending;
-}
 
 void RequireClips(const std::vector<int64_t>& only_clips, int64_t clips) {
   for (int64_t clip : only_clips)
@@ -81,82 +26,107 @@ void RequireClips(const std::vector<int64_t>& only_clips, int64_t clips) {
                                   std::to_string(clips - 1) + "]");
 }
 
-// The folder may hold more clips than the config asks for: an earlier run's `clips` may have been larger.
-int64_t CountBelow(int64_t end, const std::set<int64_t>& clips) {
-  return std::distance(clips.begin(), clips.lower_bound(end));
+// Waits for another writer if the person wants that.
+std::unique_ptr<dataset::DatasetWriter> OpenFolder(const GenerateOptions& options, const Job& job,
+                                                   const std::atomic<bool>& stop) {
+  std::unique_ptr<dataset::DatasetWriter> writer;
+  while (!writer && !stop) {
+    try {
+      writer = std::make_unique<dataset::DatasetWriter>(options.out, job.Layout(), job.Description(),
+                                                        options.shard);
+    } catch (const dataset::FolderBusy&) {
+      if (!options.wait) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    }
+  }
+  return writer;
+}
+
+// Of this shard, and below the config's number: the folder may hold more, for an earlier run's `clips` may
+// have been larger.
+struct Count {
+  int64_t clips = 0, done = 0, failed = 0;
+};
+
+Count CountClips(const dataset::DatasetWriter& writer, int64_t clips, const dataset::Shard& shard) {
+  const std::set<int64_t> done = writer.done(), failed = writer.failed();
+  Count count;
+  for (int64_t clip = 0; clip < clips; ++clip) {
+    if (!shard.Has(writer.layout().UnitOf(clip))) continue;
+    ++count.clips;
+    count.done += done.contains(clip);
+    count.failed += failed.contains(clip);
+  }
+  return count;
+}
+
+std::string Summary(const GenerateOptions& options, const Count& count, double seconds) {
+  const std::string shard = options.shard.whole() ? ""
+                                                  : ": shard " + std::to_string(options.shard.index) + "/" +
+                                                        std::to_string(options.shard.count);
+  return options.out.string() + shard + ": " + std::to_string(count.done) + " of " +
+         std::to_string(count.clips) + " clips done, " + std::to_string(count.failed) + " failed (" +
+         DurationText(seconds) + ")";
 }
 
 }  // namespace
 
 int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
   if (options.out.empty()) throw std::invalid_argument("--out: is empty, must be a folder");
+  options.shard.Validate();
   const Job job = Job::Load(options.config, options.sets, options.out);
   const int64_t clips = job.config.fixed().clips;
   RequireClips(options.only_clips, clips);
-  dataset::DatasetWriter writer(options.out, job.Layout(), job.Description());
-  const std::vector<int64_t> pending = ClipsToMake(options, clips, writer);
-
-  const auto threads = options.threads > 0 ? static_cast<size_t>(options.threads)
-                                           : static_cast<size_t>(tbb::info::default_concurrency());
-  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  const auto finished = static_cast<int64_t>(writer.done().size());
-  Progress progress(finished + static_cast<int64_t>(pending.size()), finished, options.quiet);
   const auto start = std::chrono::steady_clock::now();
+  const std::unique_ptr<dataset::DatasetWriter> writer = OpenFolder(options, job, stop);
+  if (!writer) return kExitInterrupted;
+  const std::vector<int64_t> pending = dataset::PendingClips(writer->layout(),
+                                                             {.clips = clips,
+                                                              .shard = options.shard,
+                                                              .retry_failed = options.retry_failed,
+                                                              .only = options.only_clips},
+                                                             writer->done(), writer->failed());
 
-  // Clips are made on all threads and written in their order, so that the manifest is the same however many
-  // there are.
-  size_t next = 0;
-  std::atomic<bool> ended{false};  // nothing is kept after a clip that is not, or the order would be another
-  const auto give_clip = [&](tbb::flow_control& flow) -> int64_t {
-    if (stop || ended || next == pending.size()) return flow.stop(), 0;
-    return pending[next++];
-  };
-  // Isolated: a thread that waits for the rows of its clip shall not begin another clip meanwhile.
-  const auto make = [&](int64_t clip) {
-    return tbb::this_task_arena::isolate([&] { return TryToMake(job, clip, stop); });
-  };
+  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const MemoryPlan memory = PlanMemory(options.memory_bytes, job.config, threads);
+  const int64_t own = CountClips(*writer, clips, options.shard).clips;
+  Progress progress(own, own - static_cast<int64_t>(pending.size()), options.quiet);
   std::string first_error;
-  const auto keep = [&](Outcome& outcome) {
-    if (outcome.run_ends) std::rethrow_exception(outcome.run_ends);
-    if (outcome.made) {
-      writer.Commit(outcome.clip, outcome.made->files, std::move(outcome.made->line));
+  const auto keep = [&](MadeClip made) {
+    const bool failed = !made.staged;
+    if (failed) {
+      made.line["error"] = made.error;
+      if (first_error.empty()) first_error = made.error;
+      writer->Fail(made.clip, std::move(made.line));
     } else {
-      outcome.line["error"] = outcome.error;
-      if (first_error.empty()) first_error = outcome.error;
-      writer.Fail(outcome.clip, std::move(outcome.line));
+      writer->Commit(std::move(*made.staged), std::move(made.line));
     }
-    progress.Clip(!outcome.made);
+    progress.Clip(failed);
   };
-  std::exception_ptr error;  // not thrown through the pipeline, which would lose the clips that are in it
-  const auto write = [&](Outcome outcome) {
-    ended = ended || outcome.interrupted;
-    if (ended) return;
-    try {
-      keep(outcome);
-    } catch (...) {
-      error = std::current_exception();
-      ended = true;
-    }
-  };
-  tbb::parallel_pipeline(threads + 1,
-                         tbb::make_filter<void, int64_t>(tbb::filter_mode::serial_in_order, give_clip) &
-                             tbb::make_filter<int64_t, Outcome>(tbb::filter_mode::parallel, make) &
-                             tbb::make_filter<Outcome, void>(tbb::filter_mode::serial_in_order, write));
+  std::exception_ptr error;
+  try {
+    MakeClips(job, pending, *writer, {.threads = threads, .clips_at_once = memory.clips_at_once}, stop, keep);
+  } catch (...) {
+    error = std::current_exception();
+  }
   progress.End();
+  try {
+    writer->Flush();  // what is finished stays, whatever ended the run
+  } catch (...) {
+    if (!error) error = std::current_exception();
+  }
   if (error) std::rethrow_exception(error);
 
-  const int64_t done = CountBelow(clips, writer.done()), failed = CountBelow(clips, writer.failed());
+  const Count count = CountClips(*writer, clips, options.shard);
+  if (options.shard.whole() && !stop) FinishDataset(options.out, writer->layout());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!options.quiet)
-    std::printf("%s: %lld of %lld clips done, %lld failed (%s)\n", options.out.c_str(),
-                static_cast<long long>(done), static_cast<long long>(clips), static_cast<long long>(failed),
-                DurationText(seconds).c_str());
+  if (!options.quiet) std::printf("%s\n", Summary(options, count, seconds).c_str());
   if (stop) return kExitInterrupted;
-  if (failed > 0)
+  if (count.failed > 0)
     std::fprintf(stderr, "shimmer: %s: %lld clips failed, %s; \"error\" of their lines says why\n",
-                 (options.out / "manifest.jsonl").c_str(), static_cast<long long>(failed),
+                 (options.out / "manifest.jsonl").c_str(), static_cast<long long>(count.failed),
                  first_error.empty() ? "all in an earlier run" : ("the first with: " + first_error).c_str());
-  return failed > 0 ? kExitFailed : kExitDone;
+  return count.failed > 0 ? kExitFailed : kExitDone;
 }
 
 }  // namespace shimmer::app

@@ -6,13 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "sim/app/clip_size.h"
+#include "sim/dataset/shard.h"
+
 namespace shimmer::app {
 
 struct GenerateOptions {
   std::filesystem::path config, out;
   std::vector<std::string> sets;
   std::vector<int64_t> only_clips;  // empty: all
-  int threads = 0;                  // 0: as many as the machine has
+  dataset::Shard shard;
+  bool retry_failed = false;  // clips that failed in an earlier run too
+  bool dry_run = false;       // say what would be done, and what it takes
+  bool wait = false;          // for another process that writes to the folder
+  int threads = 0;            // 0: as many as the machine has
+  int64_t memory_bytes = kDefaultMemory_bytes;
   bool quiet = false;
 };
 

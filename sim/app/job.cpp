@@ -1,9 +1,45 @@
 #include "sim/app/job.h"
 
 #include "sim/app/clean_frames.h"
+#include "sim/app/clip_size.h"
+#include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/files.h"
 
 namespace shimmer::app {
+namespace {
+
+dataset::Layout LayoutOf(const OutputParams& output, int digits, int64_t clips_per_tar) {
+  return {.kind = output.layout,
+          .format = EncodingOf(output).format,
+          .name = output.name,
+          .test_fraction = output.test_fraction,
+          .frames_per_clip = output.frames_per_clip,
+          .digits = digits,
+          .clips_per_tar = clips_per_tar};
+}
+
+}  // namespace
+
+ConfigFile ConfigOfDataset(const std::filesystem::path& folder, const Json& description) {
+  try {
+    return ConfigFile::Parse(description.value("config", Json()).dump());
+  } catch (const ConfigError& error) {
+    throw std::runtime_error((folder / dataset::kDescriptionName).string() + ":/config" + error.pointer() +
+                             ": " + error.what());
+  }
+}
+
+dataset::Layout LayoutOfDataset(const std::filesystem::path& folder, const Json& description) {
+  const OutputParams output = ConfigOfDataset(folder, description).fixed().output;
+  try {
+    return LayoutOf(output, description.value("pair_digits", 6),
+                    description.value("clips_per_tar", int64_t{1}));
+  } catch (const Json::exception&) {
+    throw std::runtime_error((folder / dataset::kDescriptionName).string() +
+                             ": damaged, pair_digits and clips_per_tar must be numbers");
+  }
+}
+
 ConfigFile LoadConfig(const std::filesystem::path& path, std::span<const std::string> sets) {
   std::vector<uint8_t> bytes;
   try {
@@ -28,23 +64,21 @@ Json Job::Description() const {
                       {"sources", sources.Records()},
                       {"version", kVersion}};
   const dataset::Layout layout = Layout();
-  if (layout.kind == dataset::LayoutKind::kPairs) description["pair_digits"] = layout.digits;
+  if (layout.IsPairs()) description["pair_digits"] = layout.digits;
+  if (layout.IsTars()) description["clips_per_tar"] = layout.clips_per_tar;
   return description;
 }
 
 dataset::Layout Job::Layout() const {
-  const OutputParams& output = config.fixed().output;
-  return {.kind = output.layout == LayoutKind::kPairs ? dataset::LayoutKind::kPairs
-                                                      : dataset::LayoutKind::kSequence,
-          .format = EncodingOf(output).format,
-          .name = output.name,
-          .test_fraction = output.test_fraction,
-          .frames_per_clip = output.frames_per_clip,
-          .digits = dataset::PairDigits(config.fixed().clips, output.frames_per_clip)};
+  const Config& fixed = config.fixed();
+  return LayoutOf(fixed.output, dataset::PairDigits(fixed.clips, fixed.output.frames_per_clip),
+                  ClipsPerTar(config, sources.still()));
 }
 
 int KeptFrameCount(const Config& config) {
-  return config.output.layout == LayoutKind::kPairs ? config.output.frames_per_clip : config.frames;
+  const bool pairs =
+      config.output.layout == LayoutKind::kPairs || config.output.layout == LayoutKind::kRestormer;
+  return pairs ? config.output.frames_per_clip : config.frames;
 }
 
 sim::ClipShape ShapeOf(const Config& config) {

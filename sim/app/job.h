@@ -19,6 +19,11 @@ inline constexpr const char* kVersion = "shimmer 0.1.0";
 // Throws ConfigError, or std::invalid_argument if the file can't be read.
 ConfigFile LoadConfig(const std::filesystem::path& path, std::span<const std::string> sets);
 
+// The config of a data set, and where its files lie, by what its dataset.json says. Throws std::runtime_error
+// where that is damaged: a data set is no argument of the person's.
+ConfigFile ConfigOfDataset(const std::filesystem::path& folder, const Json& description);
+dataset::Layout LayoutOfDataset(const std::filesystem::path& folder, const Json& description);
+
 struct Job {
   ConfigFile config;
   SourceList sources;
@@ -33,7 +38,8 @@ struct Job {
   dataset::Layout Layout() const;
 };
 
-// How many of a clip's frames are rendered and kept: all, or for pairs frames_per_clip of them.
+// How many of a clip's frames are rendered and kept: all, or for pairs and
+// restormer frames_per_clip of them.
 int KeptFrameCount(const Config& config);
 
 // frames: those that are kept.

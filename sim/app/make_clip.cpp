@@ -74,7 +74,8 @@ class FieldStatistics {
 
 }  // namespace
 
-MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, Json& line) {
+void MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop,
+              const std::function<void(const dataset::ClipFile&)>& keep, Json& line) {
   const Config config = job.config.Draw(static_cast<uint64_t>(clip), &line["drawn"]);
   const sim::ClipKey key{config.seed, static_cast<uint64_t>(clip)};
   CleanFrames clean(job.sources, config, key);
@@ -93,19 +94,15 @@ MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, J
 
   const dataset::Layout layout = job.Layout();
   const dataset::Encoding encoding = EncodingOf(config.output);
-  const bool one_clean_file = plan.read_once && layout.kind == dataset::LayoutKind::kSequence;
+  const bool one_clean_file = plan.read_once && layout.OneCleanFile();
   const std::vector<int64_t> times = KeptFrames(config);
   const bool with_truth = !config.output.truth.empty();
-  MadeClip made;
   FieldStatistics statistics;
   dataset::ClipFile turb, truth, clean_file;  // of the last frame that was computed
   std::optional<sim::CleanFrame> prepared;
   sim::RenderedFrame rendered;
   for (size_t k = 0; k < times.size(); ++k) {
     if (stop) throw Interrupted();
-    const auto path = [&](dataset::FrameKind kind) {
-      return layout.Path(kind, clip, static_cast<int64_t>(k));
-    };
     if (k == 0 || !plan.render_once) {
       const cv::Mat frame = clean.Frame(times[k], plan.halo_px);
       if (k == 0 || !plan.read_once) prepared.emplace(renderer.Prepare(frame));
@@ -116,19 +113,20 @@ MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, J
       if (k == 0 || !plan.read_once)
         clean_file = PictureFile("", frame(cv::Rect({plan.halo_px, plan.halo_px}, config.size)), encoding);
     }
-    const auto keep = [&](dataset::ClipFile file, dataset::FrameKind kind) {
-      file.path = path(kind);
-      made.files.push_back(std::move(file));
+    const auto keep_as = [&](dataset::ClipFile& file, dataset::FrameKind kind) {
+      file.path = layout.Path(kind, clip, static_cast<int64_t>(k));
+      keep(file);
     };
-    keep(turb, dataset::FrameKind::kTurb);
-    if (k == 0 || !one_clean_file) keep(clean_file, dataset::FrameKind::kClean);
-    if (with_truth) keep(truth, dataset::FrameKind::kTruth);
+    keep_as(turb, dataset::FrameKind::kTurb);
+    if (k == 0 || !one_clean_file) keep_as(clean_file, dataset::FrameKind::kClean);
+    if (with_truth) keep_as(truth, dataset::FrameKind::kTruth);
   }
   line["source"] = clean.record();
   line["tilt_rms_px"] = statistics.tilt_rms_px();
   line["mean_sigma_px"] = statistics.mean_sigma_px();
-  made.line = line;
-  return made;
+  line["size"] = {config.size.width, config.size.height};
+  line["channels"] = rendered.turb.channels();
+  line["frames"] = times.size();
 }
 
 }  // namespace shimmer::app

@@ -2,26 +2,24 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <stdexcept>
-#include <vector>
 
 #include "sim/app/job.h"
-#include "sim/dataset/dataset_writer.h"
+#include "sim/dataset/staged_clip.h"
 
 namespace shimmer::app {
-
-struct MadeClip {
-  std::vector<dataset::ClipFile> files;
-  Json line;  // for the manifest: drawn values, origins, plan, source, tilt RMS, mean sigma
-};
 
 // The person has asked to stop.
 struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-// A function of (job, clip) alone. Throws std::runtime_error where the source can't be used, with `line`
-// holding what is known so far; Interrupted, between two frames, once stop is set.
-MadeClip MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop, Json& line);
+// A function of (job, clip) alone: hands on each file as it is made, and fills in what the manifest says of
+// the clip (drawn values, origins, plan, source, tilt RMS, mean sigma). Throws std::runtime_error where the
+// source can't be used, with `line` holding what is known so far; Interrupted, between two frames, once stop
+// is set; and what keep throws.
+void MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop,
+              const std::function<void(const dataset::ClipFile&)>& keep, Json& line);
 
 }  // namespace shimmer::app

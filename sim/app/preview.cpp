@@ -41,21 +41,11 @@ std::vector<int64_t> SomeClips(const std::set<int64_t>& clips, int rows) {
   return some;
 }
 
-// A data set is no argument of the person's: what is wrong with its config is the world's fault.
-ConfigFile ConfigOf(const std::filesystem::path& folder, const Json& description) {
-  try {
-    return ConfigFile::Parse(description.value("config", Json()).dump());
-  } catch (const ConfigError& error) {
-    throw std::runtime_error((folder / "dataset.json").string() + ":/config" + error.pointer() + ": " +
-                             error.what());
-  }
-}
-
 class Previewer {
  public:
   explicit Previewer(const std::filesystem::path& folder)
       : reader_(folder),
-        config_(ConfigOf(folder, reader_.description())),
+        config_(ConfigOfDataset(folder, reader_.description())),
         same_engine_(reader_.description().value("engine", 0) == kEngine) {
     if (reader_.clips().empty()) throw std::runtime_error(folder.string() + ": has no clip that is done");
   }

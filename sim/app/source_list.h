@@ -25,6 +25,7 @@ class SourceList {
                          const std::filesystem::path& out);
 
   SourceKind kind() const { return kind_; }
+  bool still() const { return kind_ == SourceKind::kImages || kind_ == SourceKind::kDrawn; }
   const std::vector<std::filesystem::path>& items() const { return items_; }  // empty for drawn scenes
 
   // {"path": ..., "sha256": ...}. The path is relative to the config's folder for what lies in it, else

@@ -53,10 +53,14 @@ std::vector<std::string> Differences(const Json& there, const Json& here) {
                           text(new_leaves, pointer) + " here");
   }
 
-  const Json old_digits = there.value("pair_digits", Json()), new_digits = here.value("pair_digits", Json());
-  if (old_digits != new_digits)
-    differences.push_back("the numbers in file names have " + old_digits.dump() +
-                          " digits there and would have " + new_digits.dump() + " here");
+  const auto compare = [&](const char* key, const std::string& before, const std::string& after) {
+    const Json old_value = there.value(key, Json()), new_value = here.value(key, Json());
+    if (old_value != new_value)
+      differences.push_back(before + old_value.dump() + " " + after + " there and would have " +
+                            new_value.dump() + " here");
+  };
+  compare("pair_digits", "the numbers in file names have ", "digits");
+  compare("clips_per_tar", "tars have ", "clips");
 
   const Json old_engine = there.value("engine", Json()), new_engine = here.value("engine", Json());
   if (old_engine != new_engine)

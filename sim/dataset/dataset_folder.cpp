@@ -1,11 +1,11 @@
 #include "sim/dataset/dataset_folder.h"
 
-#include <fcntl.h>
-
 #include <stdexcept>
 #include <string>
 
 #include "sim/dataset/dataset_difference.h"
+#include "sim/dataset/files.h"
+#include "sim/dataset/folder_lock.h"
 
 namespace shimmer::dataset {
 namespace {
@@ -18,7 +18,7 @@ void RefuseForeignFolder(const fs::path& folder) {
   if (fs::exists(folder / kDescriptionName)) return;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name == kStagingName || name == kLockName || name == std::string(kDescriptionName) + ".new") continue;
+    if (name.starts_with(kStagingName) || name.starts_with(kLockName)) continue;
     throw std::invalid_argument(folder.string() + ": holds other files (" + name +
                                 ") and no data set; give a new or an empty folder");
   }
@@ -26,16 +26,11 @@ void RefuseForeignFolder(const fs::path& folder) {
 
 }  // namespace
 
-FileHandle MakeAndLockFolder(const fs::path& folder) {
+void MakeDatasetFolder(const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_directory(folder))
     throw std::invalid_argument(folder.string() + ": is a file, must be a folder");
   MakeFolders(folder);
   RefuseForeignFolder(folder);
-  FileHandle lock(folder / kLockName, O_CREAT | O_RDWR);
-  if (!lock.TryLock())
-    throw std::runtime_error(folder.string() +
-                             ": another process writes to this data set; wait for it to end");
-  return lock;
 }
 
 Json ReadDescription(const fs::path& folder) {
@@ -49,7 +44,7 @@ Json ReadDescription(const fs::path& folder) {
   return description;
 }
 
-void WriteDescription(const fs::path& folder, const Json& description) {
+void WriteDescription(const fs::path& folder, const fs::path& staging, const Json& description) {
   if (fs::exists(folder / kDescriptionName)) {
     const Json there = ReadDescription(folder);
     const std::vector<std::string> differences = Differences(there, description);
@@ -59,7 +54,8 @@ void WriteDescription(const fs::path& folder, const Json& description) {
     if (there == description) return;
   }
   const std::string text = description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  WriteFileAtomically(folder / kDescriptionName, AsBytes(text));
+  MakeFolders(staging);
+  WriteFileAtomically(folder / kDescriptionName, AsBytes(text), staging / kDescriptionName);
 }
 
 }  // namespace shimmer::dataset

@@ -4,13 +4,15 @@
 #include <stdexcept>
 
 #include "sim/dataset/dataset_folder.h"
+#include "sim/dataset/files.h"
+#include "sim/dataset/layout.h"
 
 namespace shimmer::dataset {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string& FileOfFrame(const std::vector<std::string>& files, int64_t clip, int64_t frame) {
+const StoredFile& FileOfFrame(const std::vector<StoredFile>& files, int64_t clip, int64_t frame) {
   if (frame < 0 || frame >= static_cast<int64_t>(files.size()))
     throw std::invalid_argument("frame " + std::to_string(frame) + " of clip " + std::to_string(clip) +
                                 ": there are " + std::to_string(files.size()));
@@ -20,34 +22,27 @@ const std::string& FileOfFrame(const std::vector<std::string>& files, int64_t cl
 }  // namespace
 
 DatasetReader::DatasetReader(fs::path folder)
-    : folder_(std::move(folder)),
-      description_(ReadDescription(folder_)),
-      manifest_(folder_ / kManifestName) {}
+    : folder_(std::move(folder)), description_(ReadDescription(folder_)), manifest_(ManifestsIn(folder_)) {}
 
 ClipFiles DatasetReader::Files(int64_t clip) const {
   if (!clips().contains(clip))
     throw std::invalid_argument(folder_.string() + ": clip " + std::to_string(clip) +
                                 " is not in this data set");
   ClipFiles files;
-  const Json line = Line(clip);
-  for (const Json& file : line.value("files", Json::array())) {
-    if (!file.is_object() || !file.contains("path") || !file["path"].is_string())
-      throw std::runtime_error((folder_ / kManifestName).string() + ": clip " + std::to_string(clip) +
-                               ": damaged line, each of its files must have a path");
-    const auto path = file["path"].get<std::string>();
-    const std::string kind = fs::path(path).parent_path().filename().string();
-    if (kind == "turb")
-      files.turb.push_back(path);
-    else if (kind == "clean" || kind == "noturb")
-      files.clean.push_back(path);
-    else if (kind == "truth")
-      files.truth.push_back(path);
+  for (StoredFile& file : FilesOfLine(Line(clip))) {
+    const auto kind = KindOfPath(file.name());
+    if (!kind) continue;
+    auto& of_kind = *kind == FrameKind::kTurb    ? files.turb
+                    : *kind == FrameKind::kClean ? files.clean
+                                                 : files.truth;
+    of_kind.push_back(std::move(file));
   }
   // Numbers grow by a digit where they have to (sequence): shorter names come first.
-  const auto by_number = [](const std::string& a, const std::string& b) {
-    return a.size() != b.size() ? a.size() < b.size() : a < b;
+  const auto by_number = [](const StoredFile& a, const StoredFile& b) {
+    const std::string name_a = a.name(), name_b = b.name();
+    return name_a.size() != name_b.size() ? name_a.size() < name_b.size() : name_a < name_b;
   };
-  for (auto* paths : {&files.turb, &files.clean, &files.truth}) std::ranges::sort(*paths, by_number);
+  for (auto* of_kind : {&files.turb, &files.clean, &files.truth}) std::ranges::sort(*of_kind, by_number);
   return files;
 }
 
@@ -55,14 +50,23 @@ int64_t DatasetReader::FrameCount(int64_t clip) const {
   return static_cast<int64_t>(Files(clip).turb.size());
 }
 
+std::vector<uint8_t> DatasetReader::Bytes(const StoredFile& file) const {
+  if (file.member.empty()) return ReadFile(folder_ / file.path);
+  return ReadPart(folder_ / file.path, static_cast<uint64_t>(file.offset), static_cast<size_t>(file.bytes));
+}
+
+Picture DatasetReader::Read(const StoredFile& file) const {
+  return file.member.empty() ? ReadImage(folder_ / file.path) : ReadImage(folder_ / file.name(), Bytes(file));
+}
+
 Picture DatasetReader::Turb(int64_t clip, int64_t frame) const {
-  return ReadImage(folder_ / FileOfFrame(Files(clip).turb, clip, frame));
+  return Read(FileOfFrame(Files(clip).turb, clip, frame));
 }
 
 Picture DatasetReader::Clean(int64_t clip, int64_t frame) const {
   const ClipFiles files = Files(clip);
   FileOfFrame(files.turb, clip, frame);  // a frame that the clip has
-  return ReadImage(folder_ / FileOfFrame(files.clean, clip, files.clean.size() == 1 ? 0 : frame));
+  return Read(FileOfFrame(files.clean, clip, files.clean.size() == 1 ? 0 : frame));
 }
 
 std::optional<cv::Mat> DatasetReader::Truth(int64_t clip, int64_t frame,
@@ -70,7 +74,9 @@ std::optional<cv::Mat> DatasetReader::Truth(int64_t clip, int64_t frame,
   const ClipFiles files = Files(clip);
   FileOfFrame(files.turb, clip, frame);
   if (files.truth.empty()) return {};
-  cv::Mat truth = ReadChannels(folder_ / FileOfFrame(files.truth, clip, frame), channels);
+  const StoredFile& file = FileOfFrame(files.truth, clip, frame);
+  cv::Mat truth = file.member.empty() ? ReadChannels(folder_ / file.path, channels)
+                                      : ReadChannels(folder_ / file.name(), channels, Bytes(file));
   if (truth.empty()) return {};
   return truth;
 }

@@ -15,9 +15,9 @@
 
 namespace shimmer::dataset {
 
-// Paths relative to the data set's folder, by frame. clean has one where all clean frames are the same.
+// By frame. clean has one where all clean frames are the same.
 struct ClipFiles {
-  std::vector<std::string> turb, clean, truth;
+  std::vector<StoredFile> turb, clean, truth;
 };
 
 class DatasetReader {
@@ -28,10 +28,13 @@ class DatasetReader {
   const std::set<int64_t>& clips() const { return manifest_.done(); }
   const std::set<int64_t>& failed() const { return manifest_.failed(); }
 
+  const std::filesystem::path& folder() const { return folder_; }
+  const Manifest& manifest() const { return manifest_; }
   Json Line(int64_t clip) const { return manifest_.Line(clip); }  // of the manifest, failed clips' too
   ClipFiles Files(int64_t clip) const;
   int64_t FrameCount(int64_t clip) const;
 
+  std::vector<uint8_t> Bytes(const StoredFile& file) const;  // as they are, whole or not
   Picture Turb(int64_t clip, int64_t frame) const;
   Picture Clean(int64_t clip, int64_t frame) const;
   std::optional<cv::Mat> TruthTilt(int64_t clip,
@@ -40,6 +43,7 @@ class DatasetReader {
                                     int64_t frame) const;  // CV_32FC1, px; absent if not written
 
  private:
+  Picture Read(const StoredFile& file) const;
   std::optional<cv::Mat> Truth(int64_t clip, int64_t frame, std::span<const std::string> channels) const;
 
   std::filesystem::path folder_;

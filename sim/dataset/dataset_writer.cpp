@@ -1,43 +1,62 @@
 #include "sim/dataset/dataset_writer.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "sim/dataset/dataset_folder.h"
+#include "sim/dataset/glob.h"
+#include "sim/dataset/numbered_name.h"
 #include "sim/dataset/sha256.h"
+#include "sim/dataset/tar.h"
 
 namespace shimmer::dataset {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool StaysInside(const fs::path& path) {
-  return !path.empty() && path.is_relative() && std::ranges::count(path, fs::path("..")) == 0;
+// What a kill may cost: clips that were made and are not named in the manifest yet.
+constexpr size_t kMostWaiting = 64;
+
+fs::path ManifestOf(const fs::path& folder, const Shard& shard) {
+  return folder / ("manifest" + shard.Suffix() + ".jsonl");
 }
 
-std::set<fs::path> Parents(std::span<const fs::path> paths) {
-  std::set<fs::path> parents;
-  for (const fs::path& path : paths) parents.insert(path.parent_path());
-  return parents;
+std::vector<Json> FilesJson(const std::vector<StoredFile>& files) {
+  std::vector<Json> json;
+  for (const StoredFile& file : files) json.push_back(ToJson(file));
+  return json;
 }
 
 }  // namespace
 
-DatasetWriter::DatasetWriter(fs::path folder, Layout layout, const Json& description)
+DatasetWriter::DatasetWriter(fs::path folder, Layout layout, const Json& description, const Shard& shard)
     : folder_(std::move(folder)),
+      staging_(folder_ / (kStagingName + shard.Suffix())),
       layout_(std::move(layout)),
-      lock_((layout_.Validate(), MakeAndLockFolder(folder_))) {
-  WriteDescription(folder_, description);
-  const Manifest manifest(folder_ / kManifestName);
-  done_ = manifest.done();
-  failed_ = manifest.failed();
-  manifest_.emplace(folder_ / kManifestName, manifest.whole_bytes());
-  CleanStaging();
+      lock_((layout_.Validate(), shard.Validate(), MakeDatasetFolder(folder_), FolderLock(folder_, shard))),
+      clips_((WriteDescription(folder_, staging_, description),
+              description.at("config").value("clips", int64_t{0}))),
+      manifest_(ManifestsIn(folder_)),
+      lines_(ManifestOf(folder_, shard), manifest_.whole_bytes(ManifestOf(folder_, shard))),
+      done_(manifest_.done()),
+      failed_(manifest_.failed()) {
+  CleanUp(shard);
+  const auto most = std::max<size_t>(kMostWaiting, 2 * static_cast<size_t>(layout_.ClipsPerUnit()));
+  commits_ = std::make_unique<GroupCommit<Entry>>(
+      most, [this](std::vector<Entry> group) { CommitGroup(std::move(group)); });
 }
 
 DatasetWriter::~DatasetWriter() {
-  std::error_code ignored;
-  fs::remove(folder_ / kStagingName, ignored);  // which does nothing to a folder that is not empty
+  commits_.reset();
+  unit_.clear();
+  try {
+    RemoveAll(staging_);
+  } catch (const std::exception&) {
+    // Opening the data set again cleans up.
+  }
 }
 
 std::set<int64_t> DatasetWriter::done() const {
@@ -55,30 +74,50 @@ bool DatasetWriter::IsDone(int64_t clip) const {
   return done_.contains(clip);
 }
 
-void DatasetWriter::Commit(int64_t clip, std::span<const ClipFile> files, Json line) {
-  if (clip < 0 || IsDone(clip))
-    throw std::invalid_argument("clip " + std::to_string(clip) + " is done already or no clip");
-  const std::string clip_folder = layout_.ClipFolder(clip);
-  for (const ClipFile& file : files)
-    if (!StaysInside(file.path) || (!clip_folder.empty() && !file.path.starts_with(clip_folder + "/")))
+void DatasetWriter::RequireOwnPaths(const StagedClip& clip) const {
+  const std::vector<std::string> folders = layout_.ClipFolders(clip.clip());
+  for (const StoredFile& file : clip.files())
+    if (!folders.empty() && std::ranges::none_of(folders, [&](const std::string& folder) {
+          return file.path.starts_with(folder + "/");
+        }))
       throw std::invalid_argument("'" + file.path + "' is no place for a file of clip " +
-                                  std::to_string(clip));
+                                  std::to_string(clip.clip()));
+}
 
-  line["files"] = Json::array();
-  for (const ClipFile& file : files) {
-    Json entry = {{"path", file.path}, {"sha256", Sha256Hex(file.bytes)}};
-    if (!file.pixel_hash.empty()) entry["pixels"] = file.pixel_hash;
-    line["files"].push_back(std::move(entry));
+void DatasetWriter::Commit(StagedClip staged, Json line) {
+  const int64_t clip = staged.clip();
+  if (clip < 0 || (IsDone(clip) && !layout_.IsTars()))
+    throw std::invalid_argument("clip " + std::to_string(clip) + " is done already or no clip");
+  RequireOwnPaths(staged);
+  commits_->Push({.clip = clip, .staged = std::move(staged), .line = std::move(line)});
+}
+
+void DatasetWriter::Fail(int64_t clip, Json line) {
+  commits_->Push({.clip = clip, .staged = {}, .line = std::move(line)});
+}
+
+void DatasetWriter::Repair(StagedClip staged, Json line) {
+  RequireOwnPaths(staged);
+  const int64_t clip = staged.clip();
+  commits_->Push({.clip = clip, .staged = std::move(staged), .line = std::move(line), .repair = true});
+}
+
+void DatasetWriter::Flush() { commits_->Flush(); }
+
+void DatasetWriter::CommitGroup(std::vector<Entry> group) {
+  for (Entry& entry : group) {
+    entry.line["clip"] = static_cast<uint64_t>(entry.clip);
+    entry.line["status"] = entry.staged ? "done" : "failed";
   }
+  if (layout_.IsTars()) group = CompleteUnits(std::move(group));
+  if (group.empty()) return;
   try {
-    Stage(clip, files);
-    Publish(clip, files);
-    Append(clip, "done", std::move(line));
-    RemoveAll(StagingOf(clip));
+    Publish(group);
+    AppendLines(group);
   } catch (...) {
     try {
-      if (!IsDone(clip)) Remove(clip);
-      RemoveAll(StagingOf(clip));
+      for (const Entry& entry : group)
+        if (!IsDone(entry.clip)) Remove(entry.clip);
     } catch (const std::exception&) {
       // The first error is the one to tell; opening the folder again cleans up.
     }
@@ -86,87 +125,174 @@ void DatasetWriter::Commit(int64_t clip, std::span<const ClipFile> files, Json l
   }
 }
 
-void DatasetWriter::Fail(int64_t clip, Json line) {
-  Remove(clip);
-  Append(clip, "failed", std::move(line));
-}
-
-fs::path DatasetWriter::StagingOf(int64_t clip) const {
-  return folder_ / kStagingName / std::to_string(clip);
-}
-
-// Staging of a sequence is the clip's folder itself, to be renamed; of pairs, a tree as in the data set's
-// folder.
-fs::path DatasetWriter::NameInStaging(int64_t clip, const std::string& path) const {
-  const std::string clip_folder = layout_.ClipFolder(clip);
-  return StagingOf(clip) / (clip_folder.empty() ? path : path.substr(clip_folder.size() + 1));
-}
-
-void DatasetWriter::CleanStaging() const {
-  const fs::path staging = folder_ / kStagingName;
-  if (!fs::exists(staging)) return;
-  for (const auto& entry : fs::directory_iterator(staging)) {
-    const std::string name = entry.path().filename().string();
-    const bool clip_name = name.size() <= 18 && name.find_first_not_of("0123456789") == std::string::npos;
-    if (clip_name && !done_.contains(std::stoll(name))) Remove(std::stoll(name));
+// Of a set of tars: the entries whose tar is complete with them. The rest waits.
+std::vector<DatasetWriter::Entry> DatasetWriter::CompleteUnits(std::vector<Entry> group) {
+  std::vector<Entry> complete;
+  for (Entry& entry : group) {
+    const int64_t unit = layout_.UnitOf(entry.clip);
+    if (!unit_.empty() && layout_.UnitOf(unit_.front().clip) != unit) unit_.clear();
+    unit_.push_back(std::move(entry));
+    const int64_t end = std::min((unit + 1) * layout_.clips_per_tar, clips_);
+    if (unit * layout_.clips_per_tar + static_cast<int64_t>(unit_.size()) < end) continue;
+    std::ranges::move(unit_, std::back_inserter(complete));
+    unit_.clear();
   }
-  RemoveAll(staging);
+  return complete;
 }
 
-void DatasetWriter::Stage(int64_t clip, std::span<const ClipFile> files) const {
-  const fs::path staging = StagingOf(clip);
-  RemoveAll(staging);
-  MakeFolders(staging);
-  std::vector<fs::path> names;
-  std::vector<FileToWrite> to_write;
-  for (const ClipFile& file : files) {
-    names.push_back(NameInStaging(clip, file.path));
-    to_write.push_back({names.back(), file.bytes});
-  }
-  std::set<fs::path> folders = Parents(names);
-  for (const fs::path& folder : folders) fs::create_directories(folder);
-  WriteFiles(to_write);
-  folders.insert(staging);
-  for (const fs::path& folder : folders) SyncFolder(folder);
-}
-
-void DatasetWriter::Publish(int64_t clip, std::span<const ClipFile> files) const {
-  const std::string clip_folder = layout_.ClipFolder(clip);
-  if (!clip_folder.empty()) {
-    const fs::path final_folder = folder_ / clip_folder;
-    MakeFolders(final_folder.parent_path());
-    // There may be one from a kill between this rename and the manifest; out of the way it goes.
-    RemoveAll(final_folder);
-    Rename(StagingOf(clip), final_folder);
-    SyncFolder(final_folder.parent_path());
+void DatasetWriter::Publish(std::vector<Entry>& entries) {
+  if (layout_.IsTars()) {
+    for (auto begin = entries.begin(); begin != entries.end();) {
+      const int64_t unit = layout_.UnitOf(begin->clip);
+      const auto end = std::find_if(begin, entries.end(),
+                                    [&](const Entry& entry) { return layout_.UnitOf(entry.clip) != unit; });
+      std::vector<Entry> of_tar(std::make_move_iterator(begin), std::make_move_iterator(end));
+      PublishTar(of_tar);
+      begin = std::move(of_tar.begin(), of_tar.end(), begin);
+    }
     return;
   }
-  std::vector<fs::path> final_paths;
-  for (const ClipFile& file : files) {
-    final_paths.push_back(folder_ / file.path);
-    MakeFolders(final_paths.back().parent_path());
-    Rename(NameInStaging(clip, file.path), final_paths.back());
+  if (std::ranges::any_of(entries, [](const Entry& entry) { return entry.staged.has_value(); }))
+    FileHandle(folder_, O_RDONLY | O_DIRECTORY).SyncFileSystem();
+  std::set<fs::path> changed;
+  for (Entry& entry : entries) {
+    if (!entry.staged) {
+      Remove(entry.clip);
+      continue;
+    }
+    changed.merge(entry.repair ? MoveDiffering(*entry.staged) : Move(entry));
+    entry.line["files"] = FilesJson(entry.staged->files());
   }
-  for (const fs::path& parent : Parents(final_paths)) SyncFolder(parent);
+  for (const fs::path& folder : changed) SyncFolder(folder);
+}
+
+// Gives the folders that must be synced.
+std::set<fs::path> DatasetWriter::Move(const Entry& entry) const {
+  std::set<fs::path> changed;
+  std::vector<std::string> moved = layout_.ClipFolders(entry.clip);
+  if (moved.empty())
+    for (const StoredFile& file : entry.staged->files()) moved.push_back(file.path);
+  for (const std::string& name : moved) {
+    const fs::path from = entry.staged->PlaceOf(name), to = folder_ / name;
+    if (!fs::exists(from)) continue;  // a kind of frame that this clip has not
+    MakeFolders(to.parent_path());
+    // There may be a folder from a kill between this move and the manifest; out of the way it goes.
+    if (fs::is_directory(to)) RemoveAll(to);
+    Rename(from, to);
+    changed.insert(to.parent_path());
+  }
+  return changed;
+}
+
+std::set<fs::path> DatasetWriter::MoveDiffering(const StagedClip& staged) const {
+  std::set<fs::path> changed;
+  for (const StoredFile& file : staged.files()) {
+    const fs::path to = folder_ / file.path;
+    if (fs::is_regular_file(to) && Sha256HexOfFile(to) == file.sha256) continue;
+    MakeFolders(to.parent_path());
+    if (fs::is_directory(to)) RemoveAll(to);
+    Rename(staged.PlaceOf(file.path), to);
+    changed.insert(to.parent_path());
+  }
+  return changed;
+}
+
+// All clips of one tar. What was there under its name is replaced.
+void DatasetWriter::PublishTar(std::vector<Entry>& unit) const {
+  const std::string tar_path = layout_.TarPath(layout_.UnitOf(unit.front().clip));
+  std::vector<TarMember> members;
+  for (Entry& entry : unit) {
+    if (!entry.staged) continue;
+    const std::string text = entry.line.dump(-1, ' ', false, Json::error_handler_t::replace);
+    entry.staged->Add({tar_path + "/" + Padded(entry.clip, 6) + ".json", {text.begin(), text.end()}, ""});
+    for (const StoredFile& file : entry.staged->files())
+      members.push_back({.name = file.path.substr(tar_path.size() + 1),
+                         .place = entry.staged->PlaceOf(file.path),
+                         .bytes = file.bytes});
+  }
+  const fs::path to = folder_ / tar_path, beside = staging_ / to.filename();
+  if (members.empty()) return RemoveAll(to);  // all of them failed; an empty tar would be read as a fault
+  MakeFolders(to.parent_path());
+  const std::vector<int64_t> offsets = WriteTar(beside, members);
+  Rename(beside, to);
+  SyncFolder(to.parent_path());
+  size_t member = 0;
+  for (Entry& entry : unit) {
+    if (!entry.staged) continue;
+    entry.line["files"] = Json::array();
+    for (StoredFile file : entry.staged->files()) {
+      file.path = tar_path;
+      file.member = members[member].name;
+      file.offset = offsets[member++];
+      entry.line["files"].push_back(ToJson(file));
+    }
+  }
+}
+
+void DatasetWriter::AppendLines(std::vector<Entry>& entries) {
+  std::vector<Json> lines;
+  for (Entry& entry : entries) {
+    // What was repaired to what it was needs no line of its own.
+    const bool known = entry.staged && manifest_.done().contains(entry.clip);
+    if (!known || manifest_.Line(entry.clip) != entry.line) lines.push_back(std::move(entry.line));
+  }
+  lines_.Append(lines);
+  for (const Entry& entry : entries) Note(entry.clip, entry.staged.has_value());
+}
+
+void DatasetWriter::Note(int64_t clip, bool done) {
+  const std::lock_guard guard(mutex_);
+  done_.erase(clip);
+  failed_.erase(clip);
+  (done ? done_ : failed_).insert(clip);
+}
+
+void DatasetWriter::Adopt(const fs::path& from, const std::vector<Json>& lines) {
+  std::set<std::string> paths;  // a tar is named by all its files
+  for (const Json& line : lines)
+    for (const StoredFile& file : FilesOfLine(line)) paths.insert(file.path);
+  std::set<fs::path> changed;
+  MakeFolders(staging_);
+  for (const std::string& path : paths) {
+    const fs::path to = folder_ / path, beside = staging_ / "adopted";
+    MakeFolders(to.parent_path());
+    LinkOrCopy(from / path, beside);
+    Rename(beside, to);
+    RemoveAll(beside);  // rename does nothing where both are links to one file
+    changed.insert(to.parent_path());
+  }
+  FileHandle(folder_, O_RDONLY | O_DIRECTORY).SyncFileSystem();
+  for (const fs::path& folder : changed) SyncFolder(folder);
+  lines_.Append(lines);
+  for (const Json& line : lines)
+    Note(line.at("clip").get<int64_t>(), line.at("status").get<std::string>() == "done");
+}
+
+// What earlier processes have left behind: their staging, and clips that were moved and not named.
+void DatasetWriter::CleanUp(const Shard& shard) const {
+  for (const fs::path& staging : ExpandGlob(folder_, std::string(kStagingName) + "*")) {
+    for (const auto& entry : fs::directory_iterator(staging)) {
+      const std::string name = entry.path().filename().string();
+      const bool is_clip = name.size() <= 18 && name.find_first_not_of("0123456789") == std::string::npos;
+      const int64_t clip = is_clip ? std::stoll(name) : -1;
+      if (is_clip && !shard.Has(layout_.UnitOf(clip))) continue;  // another shard's, perhaps at work
+      if (is_clip && !done_.contains(clip)) Remove(clip);
+      if (is_clip || shard.whole() || staging == staging_) RemoveAll(entry.path());
+    }
+    std::error_code not_empty;
+    fs::remove(staging, not_empty);
+  }
 }
 
 // Whatever lies under the final names of a clip.
 void DatasetWriter::Remove(int64_t clip) const {
-  const std::string clip_folder = layout_.ClipFolder(clip);
-  if (!clip_folder.empty()) return RemoveAll(folder_ / clip_folder);
+  if (layout_.IsTars()) return;  // a tar comes and goes whole
+  const std::vector<std::string> folders = layout_.ClipFolders(clip);
+  for (const std::string& folder : folders) RemoveAll(folder_ / folder);
+  if (!folders.empty()) return;
   for (const FrameKind kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth})
     for (int64_t frame = 0; frame < layout_.frames_per_clip; ++frame)
       RemoveAll(folder_ / layout_.Path(kind, clip, frame));
-}
-
-void DatasetWriter::Append(int64_t clip, const char* status, Json line) {
-  line["clip"] = static_cast<uint64_t>(clip);
-  line["status"] = status;
-  const std::lock_guard guard(mutex_);
-  manifest_->Append(line);
-  done_.erase(clip);
-  failed_.erase(clip);
-  (status == std::string("done") ? done_ : failed_).insert(clip);
 }
 
 }  // namespace shimmer::dataset

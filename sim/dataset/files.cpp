@@ -60,6 +60,10 @@ size_t FileHandle::ReadSome(std::span<uint8_t> buffer) {
   return got;
 }
 
+void FileHandle::Seek(uint64_t place) {
+  if (lseek(descriptor_, static_cast<off_t>(place), SEEK_SET) < 0) Fail(path_, "can't be read", errno);
+}
+
 void FileHandle::StartSync() {
   // A hint only: Sync() says what went wrong.
   sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);
@@ -68,6 +72,10 @@ void FileHandle::StartSync() {
 void FileHandle::Sync() {
   // Some file systems have nothing to sync for a folder or a pipe and say EINVAL.
   if (Again([&] { return fsync(descriptor_); }) < 0 && errno != EINVAL) Fail(path_, "can't be synced", errno);
+}
+
+void FileHandle::SyncFileSystem() {
+  if (Again([&] { return syncfs(descriptor_); }) < 0) Fail(path_, "can't be synced", errno);
 }
 
 void FileHandle::Truncate(uint64_t bytes) {
@@ -79,10 +87,10 @@ void FileHandle::Close() {
   if (close(std::exchange(descriptor_, -1)) < 0 && errno != EINTR) Fail(path_, "can't be closed", errno);
 }
 
-bool FileHandle::TryLock() {
-  if (Again([&] { return flock(descriptor_, LOCK_EX | LOCK_NB); }) == 0) return true;
-  if (errno == EWOULDBLOCK) return false;
-  if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP) return true;
+Lock FileHandle::TryLock() {
+  if (Again([&] { return flock(descriptor_, LOCK_EX | LOCK_NB); }) == 0) return Lock::kHeld;
+  if (errno == EWOULDBLOCK) return Lock::kTaken;
+  if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP) return Lock::kNone;
   Fail(path_, "can't be locked", errno);
 }
 
@@ -120,8 +128,14 @@ void WriteFile(const fs::path& path, std::span<const uint8_t> bytes) {
   WriteFiles({&file, 1});
 }
 
-void WriteFileAtomically(const fs::path& path, std::span<const uint8_t> bytes) {
-  const fs::path beside = path.string() + ".new";
+void WriteUnsynced(const fs::path& path, std::span<const uint8_t> bytes) {
+  FileHandle file(path, O_CREAT | O_WRONLY | O_TRUNC);
+  file.WriteAll(bytes);
+  file.Close();
+}
+
+void WriteFileAtomically(const fs::path& path, std::span<const uint8_t> bytes, fs::path beside) {
+  if (beside.empty()) beside = path.string() + ".new";
   try {
     WriteFile(beside, bytes);
     Rename(beside, path);
@@ -146,8 +160,9 @@ std::vector<uint8_t> ReadFile(const fs::path& path) {
   return bytes;
 }
 
-std::vector<uint8_t> ReadStart(const fs::path& path, size_t most_bytes) {
+std::vector<uint8_t> ReadPart(const fs::path& path, uint64_t first, size_t most_bytes) {
   FileHandle file(path, O_RDONLY);
+  file.Seek(first);
   std::vector<uint8_t> bytes(most_bytes);
   size_t size = 0;
   while (const size_t got = file.ReadSome(std::span(bytes).subspan(size))) size += got;
@@ -155,10 +170,25 @@ std::vector<uint8_t> ReadStart(const fs::path& path, size_t most_bytes) {
   return bytes;
 }
 
+std::vector<uint8_t> ReadStart(const fs::path& path, size_t most_bytes) {
+  return ReadPart(path, 0, most_bytes);
+}
+
 void Rename(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
   Check(to, "can't be put in place", error);
+}
+
+void LinkOrCopy(const fs::path& from, const fs::path& to) {
+  RemoveAll(to);
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (!error) return;
+  fs::copy_file(from, to, error);
+  if (!error) return;
+  RequireFile(from);
+  Check(to, "can't be written", error);
 }
 
 void SyncFolder(const fs::path& folder) {

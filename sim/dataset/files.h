@@ -11,6 +11,9 @@
 
 namespace shimmer::dataset {
 
+// kNone: this file system has no locks (some cluster file systems).
+enum class Lock { kHeld, kTaken, kNone };
+
 // An open file of the system, closed when it goes.
 class FileHandle {
  public:
@@ -23,13 +26,13 @@ class FileHandle {
   void WriteAll(std::span<const uint8_t> bytes);
   void StartSync();  // asks for it and does not wait; Sync() then has less to do
   void Sync();
+  void SyncFileSystem();  // all of it that this file or folder lies in
   void Truncate(uint64_t bytes);
-  void Close();  // reports what the destructor would swallow
-  // Against other processes and other handles; false: another holds it. On a file system without locks (some
-  // cluster file systems) there is nothing to hold, and it is true.
-  bool TryLock();
+  void Close();    // reports what the destructor would swallow
+  Lock TryLock();  // against other processes and other handles
 
   size_t ReadSome(std::span<uint8_t> buffer);  // 0 at the end
+  void Seek(uint64_t place);
 
  private:
   std::filesystem::path path_;
@@ -48,17 +51,27 @@ struct FileToWrite {
 void WriteFiles(std::span<const FileToWrite> files);
 void WriteFile(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 
-// A file under its final name at once, or not at all: written and synced beside (path + ".new"), renamed,
-// folder synced.
-void WriteFileAtomically(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+// The same without the sync, for files that SyncFileSystem makes durable with many others.
+void WriteUnsynced(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+// A file under its final name at once, or not at all: written and synced beside, renamed, folder synced.
+// beside: a name in the same file system, path + ".new" unless it is given.
+void WriteFileAtomically(const std::filesystem::path& path, std::span<const uint8_t> bytes,
+                         std::filesystem::path beside = {});
 
 std::vector<uint8_t> ReadFile(const std::filesystem::path& path);
+// Bytes first .. first + bytes - 1, or fewer where the file ends before.
+std::vector<uint8_t> ReadPart(const std::filesystem::path& path, uint64_t first, size_t bytes);
 std::vector<uint8_t> ReadStart(const std::filesystem::path& path, size_t most_bytes);
 void ReadPieces(const std::filesystem::path& path,
                 const std::function<void(std::span<const uint8_t>)>& piece);
 
 // Replaces `to` where it is a file. Durable after SyncFolder of both parents.
 void Rename(const std::filesystem::path& from, const std::filesystem::path& to);
+
+// `to` becomes another name of the file where that is possible (one file system), else a copy. `to` is
+// replaced.
+void LinkOrCopy(const std::filesystem::path& from, const std::filesystem::path& to);
 void SyncFolder(const std::filesystem::path& folder);
 void MakeFolders(
     const std::filesystem::path& folder);  // with parents, each synced into its own; no error if there

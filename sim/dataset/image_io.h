@@ -32,12 +32,14 @@ struct Picture {
 // changed, colour not multiplied by alpha). Integers are scaled to [0, 1]: 8 bits v / 255.f, 16 bits v /
 // 65535.f. One channel (or one and alpha) is grey, R, G and B by name or else the first three of three or
 // more are RGB. Refused: no file, not a picture, cut off or otherwise damaged, two channels without alpha,
-// over kMaxSide_px.
-Picture ReadImage(const std::filesystem::path& path);
+// over kMaxSide_px. bytes, where not empty: the file's, read already (of a file in a tar); path then only
+// names it.
+Picture ReadImage(const std::filesystem::path& path, std::span<const uint8_t> bytes = {});
 
 // The named channels of a float file, in the order of the names, CV_32FC(n). Values as they are, NaN too.
 // Empty if one of them is not in the file.
-cv::Mat ReadChannels(const std::filesystem::path& path, std::span<const std::string> names);
+cv::Mat ReadChannels(const std::filesystem::path& path, std::span<const std::string> names,
+                     std::span<const uint8_t> bytes = {});
 
 // Extensions of the files that ReadImage may read, lower case without dot ("png").
 const std::vector<std::string>& PictureExtensions();

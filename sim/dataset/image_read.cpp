@@ -1,3 +1,4 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -28,12 +29,29 @@ void RequirePicture(const fs::path& path) {
   if (const auto damage = PngDamage(ReadFile(path))) Fail(path, "damaged picture: PNG " + *damage);
 }
 
-std::unique_ptr<OIIO::ImageInput> Open(const fs::path& path) {
+// An open picture, and where its bytes come from if that is no file.
+struct Input {
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // destroyed after what reads from it
+  std::unique_ptr<OIIO::ImageInput> input;
+
+  OIIO::ImageInput& operator*() const { return *input; }
+  OIIO::ImageInput* operator->() const { return input.get(); }
+};
+
+Input Open(const fs::path& path, std::span<const uint8_t> bytes) {
   SetUpOpenImageIO();
-  RequirePicture(path);
   OIIO::ImageSpec wish;
   wish["oiio:UnassociatedAlpha"] = 1;
-  auto input = OIIO::ImageInput::open(path.string(), &wish);
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
+  if (bytes.empty()) {
+    RequirePicture(path);
+  } else {
+    if (LooksLikePng(bytes))
+      if (const auto damage = PngDamage(bytes)) Fail(path, "damaged picture: PNG " + *damage);
+    memory =
+        std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<uint8_t*>(bytes.data()), bytes.size());
+  }
+  auto input = OIIO::ImageInput::open(path.string(), &wish, memory.get());
   if (!input) Fail(path, "not a picture that can be read (" + OIIO::geterror() + ")");
   if (input->format_name() == std::string("FFmpeg movie")) Fail(path, "a video, must be a picture");
   const OIIO::ImageSpec& spec = input->spec();
@@ -42,7 +60,7 @@ std::unique_ptr<OIIO::ImageInput> Open(const fs::path& path) {
   if (spec.width > kMaxSide_px || spec.height > kMaxSide_px)
     Fail(path, "too large: " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
                    ", must be within " + std::to_string(kMaxSide_px) + " a side");
-  return input;
+  return {std::move(memory), std::move(input)};
 }
 
 // The channels that make the picture, by their index in the file.
@@ -146,8 +164,8 @@ const std::vector<std::string>& PictureExtensions() {
   return extensions;
 }
 
-Picture ReadImage(const fs::path& path) {
-  const auto input = Open(path);
+Picture ReadImage(const fs::path& path, std::span<const uint8_t> bytes) {
+  const Input input = Open(path, bytes);
   const OIIO::ImageSpec& spec = input->spec();
   const std::vector<int> picked = ColourChannels(path, spec);
   Picture picture;
@@ -159,8 +177,9 @@ Picture ReadImage(const fs::path& path) {
   return picture;
 }
 
-cv::Mat ReadChannels(const fs::path& path, std::span<const std::string> names) {
-  const auto input = Open(path);
+cv::Mat ReadChannels(const fs::path& path, std::span<const std::string> names,
+                     std::span<const uint8_t> bytes) {
+  const Input input = Open(path, bytes);
   std::vector<int> picked;
   for (const std::string& name : names) {
     picked.push_back(input->spec().channelindex(name));

@@ -1,34 +1,49 @@
 #include "sim/dataset/layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
+
+#include "sim/dataset/numbered_name.h"
 
 namespace shimmer::dataset {
 namespace {
 
-std::string Padded(int64_t number, size_t digits) {
-  std::string text = std::to_string(number);
-  if (text.size() < digits) text.insert(0, digits - text.size(), '0');
-  return text;
+// What a kind of frame is called, by layout: as its training code says.
+std::string FolderOf(FrameKind kind, LayoutKind layout) {
+  if (kind == FrameKind::kTruth) return "truth";
+  const bool turb = kind == FrameKind::kTurb;
+  switch (layout) {
+    case LayoutKind::kPairs:
+      return turb ? "turb" : "noturb";
+    case LayoutKind::kRestormer:
+    case LayoutKind::kBasicsr:
+      return turb ? "lq" : "gt";
+    case LayoutKind::kSequence:
+    case LayoutKind::kWebdataset:
+      break;
+  }
+  return turb ? "turb" : "clean";
 }
 
-const char* FolderOf(FrameKind kind, LayoutKind layout) {
-  switch (kind) {
-    case FrameKind::kTurb:
-      return "turb";
-    case FrameKind::kClean:
-      return layout == LayoutKind::kPairs ? "noturb" : "clean";
-    case FrameKind::kTruth:
-      return "truth";
-  }
-  throw std::invalid_argument("unknown kind of frame");
+// "clips" of the first thousand clips, "clips.001" of the second.
+std::string ThousandOf(int64_t clip) {
+  const int64_t thousand = clip / kClipsPerFolder;
+  return thousand == 0 ? "clips" : "clips." + Padded(thousand, 3);
+}
+
+std::string PartOf(int64_t clip) {
+  const int64_t part = clip / kClipsPerFolder;
+  return part == 0 ? "" : "part" + Padded(part, 3) + "/";
 }
 
 }  // namespace
 
 void Layout::Validate() const {
-  if (kind == LayoutKind::kSequence) return;
+  if (IsTars() && clips_per_tar < 1) throw std::invalid_argument("clips_per_tar must be at least 1");
+  if (!IsPairs()) return;
   if (!IsPlainFolderName(name))
     throw std::invalid_argument("name = \"" + name + "\", must be a plain name of a folder");
   if (!(test_fraction >= 0 && test_fraction <= 1))
@@ -40,22 +55,66 @@ void Layout::Validate() const {
 std::string Layout::Path(FrameKind frame_kind, int64_t clip, int64_t frame) const {
   const std::string extension = frame_kind == FrameKind::kTruth ? "exr" : Extension(format);
   const std::string folder = FolderOf(frame_kind, kind);
-  if (kind == LayoutKind::kSequence)
-    return ClipFolder(clip) + "/" + folder + "/" + Padded(frame, 4) + "." + extension;
+  switch (kind) {
+    case LayoutKind::kSequence:
+      return ClipFolders(clip)[0] + "/" + folder + "/" + Padded(frame, 4) + "." + extension;
+    case LayoutKind::kBasicsr:
+      return PartOf(clip) + folder + "/" + Padded(clip % kClipsPerFolder, 3) + "/" + Padded(frame, 8) + "." +
+             extension;
+    case LayoutKind::kWebdataset:
+      return TarPath(UnitOf(clip)) + "/" + Padded(clip, 6) + "." + folder + "." + Padded(frame, 4) + "." +
+             extension;
+    case LayoutKind::kPairs:
+    case LayoutKind::kRestormer:
+      break;
+  }
   const std::string half = IsTestClip(clip, test_fraction) ? "test" : "train";
   return name + "/" + half + "/" + folder + "/" + Padded(clip * frames_per_clip + frame, digits) + "." +
          extension;
 }
 
-std::string Layout::ClipFolder(int64_t clip) const {
-  return kind == LayoutKind::kSequence ? "clips/" + Padded(clip, 6) : "";
+std::vector<std::string> Layout::ClipFolders(int64_t clip) const {
+  if (kind == LayoutKind::kSequence) return {ThousandOf(clip) + "/" + Padded(clip, 6)};
+  std::vector<std::string> folders;
+  if (kind == LayoutKind::kBasicsr)
+    for (const FrameKind frame_kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth})
+      folders.push_back(PartOf(clip) + FolderOf(frame_kind, kind) + "/" + Padded(clip % kClipsPerFolder, 3));
+  return folders;
+}
+
+std::string Layout::TarPath(int64_t unit) const { return "shards/" + Padded(unit, 6) + ".tar"; }
+
+std::optional<FrameKind> KindOfPath(const std::string& path) {
+  constexpr std::array<std::pair<const char*, FrameKind>, 6> kKinds = {{{"turb", FrameKind::kTurb},
+                                                                        {"lq", FrameKind::kTurb},
+                                                                        {"clean", FrameKind::kClean},
+                                                                        {"noturb", FrameKind::kClean},
+                                                                        {"gt", FrameKind::kClean},
+                                                                        {"truth", FrameKind::kTruth}}};
+  const auto named = [&](const std::string& name) -> std::optional<FrameKind> {
+    for (const auto& [kind_name, kind] : kKinds)
+      if (name == kind_name) return kind;
+    return {};
+  };
+  const std::filesystem::path whole(path);
+  if (whole.parent_path().extension() == ".tar") {  // 000123.turb.0000.png
+    const std::string name = whole.filename().string();
+    const size_t dot = name.find('.'), next = name.find('.', dot + 1);
+    return dot == std::string::npos || next == std::string::npos
+               ? std::nullopt
+               : named(name.substr(dot + 1, next - dot - 1));
+  }
+  // The innermost folder that has such a name: output.name may be one too.
+  for (auto folder = whole.parent_path(); !folder.empty(); folder = folder.parent_path())
+    if (const auto kind = named(folder.filename().string())) return kind;
+  return {};
 }
 
 bool IsPlainFolderName(const std::string& name) {
   const auto bad = [](unsigned char c) { return c == '/' || c == '\\' || c < 0x20 || c == 0x7F; };
   return !name.empty() && name.size() <= 100 && name[0] != '.' && name[0] != '-' &&
          std::ranges::none_of(name, bad) && name != "clips" && name != "dataset.json" &&
-         name != "manifest.jsonl";
+         name != "manifest.jsonl" && name != "report.html";
 }
 
 bool IsTestClip(int64_t clip, double test_fraction) {

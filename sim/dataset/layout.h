@@ -1,14 +1,20 @@
 // Where the files of a clip lie in a data set's folder.
 //
-//   sequence   clips/000123/turb/0000.png    clips/000123/clean/0000.png    clips/000123/truth/0000.exr
-//   pairs      NAME/train/turb/000123.png    NAME/train/noturb/000123.png   NAME/train/truth/000123.exr
-//              NAME/test/...                 (numbered clip * frames_per_clip + frame)
+//   sequence    clips/000123/turb/0000.png    clips/000123/clean/0000.png    clips/000123/truth/0000.exr
+//   pairs       NAME/train/turb/000123.png    NAME/train/noturb/000123.png   NAME/train/truth/000123.exr
+//   restormer   NAME/train/lq/000123.png      NAME/train/gt/000123.png       NAME/train/truth/000123.exr
+//   basicsr     lq/123/00000000.png           gt/123/00000000.png            truth/123/00000000.exr
+//   webdataset  shards/000012.tar/000123.turb.0000.png, ...: a path in a tar as if the tar were a folder
 //
-// Training code reads pairs by listing turb and noturb and taking them in sorted order, so nothing else may
-// ever lie in those folders, and every number in them must have the same length.
+// Of pairs and restormer a clip lies in NAME/train or NAME/test, numbered clip * frames_per_clip + frame.
+// Training code reads them by listing two folders and taking them in sorted order, so nothing else may ever
+// lie in those, and every number in them must have the same length: they are flat, however large the set.
+// sequence and basicsr have at most a thousand clips a folder: clips 1000 to 1999 lie in clips.001/ and in
+// part001/gt/, part001/lq/, and so on; of basicsr each part is numbered from 000 and is a set of its own.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,29 +22,47 @@
 
 namespace shimmer::dataset {
 
-enum class LayoutKind { kSequence, kPairs };
+enum class LayoutKind { kSequence, kPairs, kRestormer, kBasicsr, kWebdataset };
 enum class FrameKind { kTurb, kClean, kTruth };
 
 struct Layout {
   LayoutKind kind = LayoutKind::kSequence;
   FileFormat format = FileFormat::kPng;  // of turb and clean; truth is EXR
 
-  // Of pairs only:
+  // Of pairs and restormer only:
   std::string name = "shimmer";
   double test_fraction = 0.02;
   int64_t frames_per_clip = 1;
   int digits = 6;  // of the numbers, the same for the whole data set (PairDigits)
 
+  // Of webdataset only:
+  int64_t clips_per_tar = 1;
+
   // Throws std::invalid_argument: a name that is no plain folder name, a number out of its range.
   void Validate() const;
 
-  // Relative to the data set's folder, parts joined by "/". frame: 0 .. frames - 1, in pairs 0 ..
-  // frames_per_clip - 1.
+  bool IsPairs() const { return kind == LayoutKind::kPairs || kind == LayoutKind::kRestormer; }
+  bool IsTars() const { return kind == LayoutKind::kWebdataset; }
+  // Clean frames that are all the same stand once.
+  bool OneCleanFile() const { return kind == LayoutKind::kSequence || kind == LayoutKind::kWebdataset; }
+
+  // Relative to the data set's folder, parts joined by "/". frame: 0 .. frames - 1, in pairs and restormer 0
+  // .. frames_per_clip - 1.
   std::string Path(FrameKind kind, int64_t clip, int64_t frame) const;
 
-  // The one folder that holds a clip and nothing else, or "" where there is none (pairs).
-  std::string ClipFolder(int64_t clip) const;
+  // The folders that hold files of this clip and nothing else; none where there are no such folders.
+  std::vector<std::string> ClipFolders(int64_t clip) const;
+
+  // Clips are written in units, whole or not at all: one by one, or a tar of them.
+  int64_t ClipsPerUnit() const { return IsTars() ? clips_per_tar : 1; }
+  int64_t UnitOf(int64_t clip) const { return clip / ClipsPerUnit(); }
+  std::string TarPath(int64_t unit) const;
 };
+
+inline constexpr int64_t kClipsPerFolder = 1000;  // of sequence and basicsr
+
+// Which kind of frame a file is, by the folder that it lies in, or by its name in a tar.
+std::optional<FrameKind> KindOfPath(const std::string& path);
 
 // A folder's name that no path, option or file of a data set can be taken for: 1 to 100 bytes, no '/', '\\'
 // or control characters, no '.' or '-' at its start, not "clips".

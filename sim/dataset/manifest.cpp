@@ -2,41 +2,101 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
+#include "sim/dataset/dataset_folder.h"
+#include "sim/dataset/glob.h"
+
 namespace shimmer::dataset {
 namespace {
+
+namespace fs = std::filesystem;
 
 // Text from outside (a file's name) may be no UTF-8, which JSON can't hold: such bytes become U+FFFD.
 std::string OneLine(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// The object's value of this name, if it has one of this type.
+template <class Value>
+Value ValueOr(const Json& object, const char* name, Value otherwise) {
+  const auto found = object.find(name);
+  if (found == object.end()) return otherwise;
+  return found->get<Value>();
+}
+
 }  // namespace
 
-Manifest::Manifest(std::filesystem::path path) : path_(std::move(path)) {
-  if (!std::filesystem::exists(path_)) return;
-  std::ifstream file(path_, std::ios::binary);
-  if (!file) throw std::runtime_error(path_.string() + ": can't be read");
+Json ToJson(const StoredFile& file) {
+  Json json = {{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}};
+  if (!file.pixels.empty()) json["pixels"] = file.pixels;
+  if (!file.member.empty()) json.update({{"member", file.member}, {"offset", file.offset}});
+  return json;
+}
+
+std::vector<StoredFile> FilesOfLine(const Json& line) {
+  std::vector<StoredFile> files;
+  try {
+    for (const Json& json : line.value("files", Json::array()))
+      files.push_back({.path = json.at("path").get<std::string>(),
+                       .member = ValueOr<std::string>(json, "member", ""),
+                       .offset = ValueOr<int64_t>(json, "offset", 0),
+                       .bytes = ValueOr<int64_t>(json, "bytes", -1),
+                       .sha256 = ValueOr<std::string>(json, "sha256", ""),
+                       .pixels = ValueOr<std::string>(json, "pixels", "")});
+  } catch (const Json::exception&) {
+    throw std::runtime_error("clip " + line.value("clip", Json()).dump() +
+                             ": damaged line, each of its files must have a path");
+  }
+  for (const StoredFile& file : files)
+    if (!file.member.empty() && (file.offset < 0 || file.bytes < 0))
+      throw std::runtime_error("clip " + line.value("clip", Json()).dump() +
+                               ": damaged line, a file in a tar must have offset and bytes");
+  return files;
+}
+
+std::vector<fs::path> ManifestsIn(const fs::path& folder) {
+  std::vector<fs::path> paths = {folder / kManifestName};
+  if (!fs::is_directory(folder)) return paths;
+  std::vector<fs::path> shards = ExpandGlob(folder, "manifest.*-of-*.jsonl");
+  std::ranges::sort(shards);
+  paths.insert(paths.end(), shards.begin(), shards.end());
+  return paths;
+}
+
+Manifest::Manifest(std::vector<fs::path> paths, const Damaged& damaged)
+    : paths_(std::move(paths)), whole_bytes_(paths_.size(), 0) {
+  for (uint32_t file = 0; file < paths_.size(); ++file) Read(file, damaged);
+}
+
+void Manifest::Read(uint32_t file_index, const Damaged& damaged) {
+  const fs::path& path = paths_[file_index];
+  uint64_t& whole_bytes = whole_bytes_[file_index];
+  if (!fs::exists(path)) return;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path.string() + ": can't be read");
   int64_t line_number = 0;
   for (std::string line; std::getline(file, line);) {
     ++line_number;
     const bool has_newline = !file.eof();
     if (!has_newline) return;  // torn
     try {
-      Note(line, whole_bytes_);
+      Note(line, {file_index, whole_bytes});
     } catch (const std::exception& error) {
       if (dynamic_cast<const Json::parse_error*>(&error) && file.peek() == std::ifstream::traits_type::eof())
         return;
-      throw std::runtime_error(path_.string() + ":" + std::to_string(line_number) + ": damaged line (" +
-                               error.what() + ")");
+      const std::string what =
+          path.string() + ":" + std::to_string(line_number) + ": damaged line (" + error.what() + ")";
+      if (!damaged) throw std::runtime_error(what);
+      damaged(what);
     }
-    whole_bytes_ += line.size() + 1;
+    whole_bytes += line.size() + 1;
   }
 }
 
-void Manifest::Note(const std::string& line, uint64_t offset) {
+void Manifest::Note(const std::string& line, Place place) {
   const Json json = Json::parse(line);
   const Json& number = json.at("clip");
   if (!number.is_number_unsigned())
@@ -45,35 +105,51 @@ void Manifest::Note(const std::string& line, uint64_t offset) {
   const auto status = json.at("status").get<std::string>();
   if (status != "done" && status != "failed")
     throw std::runtime_error("\"status\" is \"" + status + "\", must be \"done\" or \"failed\"");
-  offsets_[clip] = offset;
+  // What failed for one process may be done by another.
+  const auto known = places_.find(clip);
+  if (known != places_.end() && known->second.file != place.file && status == "failed" &&
+      done_.contains(clip))
+    return;
+  places_[clip] = place;
   done_.erase(clip);
   failed_.erase(clip);
   (status == "done" ? done_ : failed_).insert(clip);
 }
 
+uint64_t Manifest::whole_bytes(const fs::path& path) const {
+  const auto found = std::ranges::find(paths_, path);
+  return found == paths_.end() ? 0 : whole_bytes_[static_cast<size_t>(found - paths_.begin())];
+}
+
 Json Manifest::Line(int64_t clip) const {
-  const auto offset = offsets_.find(clip);
-  if (offset == offsets_.end())
-    throw std::runtime_error(path_.string() + ": has no clip " + std::to_string(clip));
-  std::ifstream file(path_, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(offset->second));
+  const auto place = places_.find(clip);
+  if (place == places_.end())
+    throw std::runtime_error(paths_.front().string() + ": has no clip " + std::to_string(clip));
+  const fs::path& path = paths_[place->second.file];
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(place->second.offset));
   std::string line;
   std::getline(file, line);
   Json json = Json::parse(line, nullptr, /*allow_exceptions=*/false);
   if (!file || !json.is_object() || json.value("clip", int64_t{-1}) != clip)
-    throw std::runtime_error(path_.string() + ": has changed since it was read");
+    throw std::runtime_error(path.string() + ": has changed since it was read");
   return json;
 }
 
-ManifestWriter::ManifestWriter(const std::filesystem::path& path, uint64_t whole_bytes)
+void Manifest::ForEachLine(const std::function<void(int64_t, const Json&)>& visit) const {
+  for (const auto& [clip, place] : places_) visit(clip, Line(clip));
+}
+
+ManifestWriter::ManifestWriter(const fs::path& path, uint64_t whole_bytes)
     : file_(path, O_CREAT | O_WRONLY | O_APPEND), whole_bytes_(whole_bytes) {
   file_.Truncate(whole_bytes);
   file_.Sync();
   SyncFolder(path.parent_path());
 }
 
-void ManifestWriter::Append(const Json& line) {
-  const std::string text = OneLine(line);
+void ManifestWriter::Append(std::span<const Json> lines) {
+  std::string text;
+  for (const Json& line : lines) text += OneLine(line);
   try {
     file_.WriteAll(AsBytes(text));
     file_.Sync();

@@ -26,6 +26,12 @@ std::optional<std::pair<size_t, std::string>> LastNumber(const std::string& text
 
 }  // namespace
 
+std::string Padded(int64_t number, size_t digits) {
+  std::string text = std::to_string(number);
+  if (text.size() < digits) text.insert(0, digits - text.size(), '0');
+  return text;
+}
+
 std::optional<NumberedName> NumberedName::Parse(const std::string& name) {
   const size_t percent = name.find('%');
   if (percent == std::string::npos || name.find('%', percent + 1) != std::string::npos) return {};
@@ -40,11 +46,7 @@ std::optional<NumberedName> NumberedName::Parse(const std::string& name) {
   return parsed;
 }
 
-std::string NumberedName::Of(int64_t number) const {
-  std::string text = std::to_string(number);
-  if (text.size() < digits) text.insert(0, digits - text.size(), '0');
-  return before + text + after;
-}
+std::string NumberedName::Of(int64_t number) const { return before + Padded(number, digits) + after; }
 
 std::optional<int64_t> NumberedName::NumberOf(const std::string& name) const {
   if (name.size() <= before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after))

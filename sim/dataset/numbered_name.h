@@ -9,6 +9,9 @@
 
 namespace shimmer::dataset {
 
+// "000123": the number with zeros in front, to at least so many digits.
+std::string Padded(int64_t number, size_t digits);
+
 // "in%06d.jpg": text, a number with at least that many digits, text.
 struct NumberedName {
   std::string before;

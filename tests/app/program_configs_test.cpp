@@ -53,8 +53,8 @@ void ExpectFramesAsConfig(const dataset::DatasetReader& reader, const fs::path& 
       }
     }
     const dataset::ClipFiles files = reader.Files(clip);
-    for (const auto& path : {files.turb.front(), files.clean.back()})
-      EXPECT_EQ(BitsIn(data_set / path), config.output.bits) << path;
+    for (const auto& file : {files.turb.front(), files.clean.back()})
+      EXPECT_EQ(BitsIn(data_set / file.path), config.output.bits) << file.path;
   }
 }
 

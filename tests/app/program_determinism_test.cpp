@@ -120,9 +120,9 @@ INSTANTIATE_TEST_SUITE_P(Program, Stops,
 TEST_P(Stops, AndGoesOn) {
   const auto [layout, signal] = GetParam();
   const TempFolder folder;
-  folder.Put("c.json", SmallConfig({{"clips", 48},  // slow ones, so that a run can be caught at work
+  folder.Put("c.json", SmallConfig({{"clips", 150},  // slow ones, so that a run can be caught at work
                                     {"frames", 3},
-                                    {"size", {48, 40}},
+                                    {"size", {80, 64}},
                                     {"blur", {{"max_sigma_px", 6}, {"method", "exact"}}},
                                     {"output", {{"layout", layout}, {"frames_per_clip", 3}}}}));
   ExpectDone(Generate(folder, "c.json", "whole"));
@@ -144,7 +144,7 @@ TEST_P(Stops, AndGoesOn) {
     stopped += ran.exit_code != 0;
     const dataset::DatasetReader reader(set);  // a set at any time
     ASSERT_TRUE(reader.clips().contains(0));
-    const ino_t inode = InodeOf(set / reader.Files(0).turb[0]);
+    const ino_t inode = InodeOf(set / reader.Files(0).turb[0].path);
     EXPECT_TRUE(first_file == 0 || first_file == inode);
     first_file = inode;
   }

@@ -115,7 +115,7 @@ TEST(Target, HasOneWriterAtATime) {
   WaitUntil([&] { return fs::exists(folder / "set/manifest.jsonl"); });
   const Ran second = Shimmer(folder, command);
   ExpectDone(first.Wait());
-  ExpectOneLine(second, 1, {"set: another process writes to this data set"});
+  ExpectOneLine(second, 1, {"set: process ", " writes to this data set; wait for it to end"});
   EXPECT_EQ(ManifestLines(folder / "set").size(), 40u);
 }
 

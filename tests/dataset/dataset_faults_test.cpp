@@ -19,7 +19,7 @@ constexpr int64_t kClips = 30;
 void CommitTheRest(DatasetWriter& writer, const Layout& layout) {
   const std::set<int64_t> done = writer.done();
   for (int64_t clip = 0; clip < kClips; ++clip)
-    if (!done.contains(clip)) writer.Commit(clip, SmallClip(layout, clip), {});
+    if (!done.contains(clip)) CommitNow(writer, clip, SmallClip(layout, clip), {});
 }
 
 // Every file named in the manifest is there and right; no other clip's file is there.
@@ -80,14 +80,17 @@ TEST(DatasetFaults, AClipFolderWithoutAManifestLineIsReplaced) {
   DatasetWriter writer(folder.path(), Sequence(), Description());
   folder.Put("clips/000000/turb/0000.png", "half of something");
   folder.Put("clips/000000/mask/0000.png", "of an older program");
-  writer.Commit(0, SmallClip(Sequence(), 0), {});
+  CommitNow(writer, 0, SmallClip(Sequence(), 0), {});
   ExpectOnlyWholeClips(folder.path());
 }
 
 TEST(DatasetFaults, FilesOfPairsWithoutAManifestLineAreRemovedOnOpening) {
   const TempFolder folder;
   const Layout layout = Pairs();
-  { DatasetWriter(folder.path(), layout, Description()).Commit(0, SmallClip(layout, 0), {}); }
+  {
+    DatasetWriter writer(folder.path(), layout, Description());
+    CommitNow(writer, 0, SmallClip(layout, 0), {});
+  }
   // Clip 1 was killed between its renames; clip 0 just after its manifest line.
   folder.Put(layout.Path(FrameKind::kTurb, 1, 0), "renamed");
   folder.Put(".staging/1/" + layout.Path(FrameKind::kTurb, 1, 1), "not yet");
@@ -103,7 +106,7 @@ TEST(DatasetFaults, AFailedClipLeavesNoFiles) {
     const TempFolder folder;
     DatasetWriter writer(folder.path(), layout, Description());
     folder.Put(layout.Path(FrameKind::kTurb, 0, 1), "left by a kill");
-    writer.Fail(0, {{"error", "bad source"}});
+    FailNow(writer, 0, {{"error", "bad source"}});
     ExpectOnlyWholeClips(folder.path());
     EXPECT_EQ(Manifest(folder / "manifest.jsonl").Line(0)["error"], "bad source");
   }
@@ -123,7 +126,7 @@ TEST(DatasetFaults, AClipThatCantBeWrittenIsNotThere) {
   for (const Layout& layout : {Sequence(), Pairs()}) {
     const TempFolder folder;
     DatasetWriter writer(folder.path(), layout, Description());
-    writer.Commit(0, SmallClip(layout, 0), {});
+    CommitNow(writer, 0, SmallClip(layout, 0), {});
     // No file may pass 4000 bytes: the second of the clip's files fails as on a full disk.
     auto files = SmallClip(layout, 1);
     files[1].bytes.resize(8000);
@@ -133,12 +136,12 @@ TEST(DatasetFaults, AClipThatCantBeWrittenIsNotThere) {
     limit.rlim_cur = 4000;
     const auto old_handler = signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &limit);
-    const std::string error = ErrorOf<std::runtime_error>([&] { writer.Commit(1, files, {}); });
+    const std::string error = ErrorOf<std::runtime_error>([&] { CommitNow(writer, 1, files, {}); });
     setrlimit(RLIMIT_FSIZE, &old_limit);
     signal(SIGXFSZ, old_handler);
     EXPECT_TRUE(Contains(error, "File too large") && Contains(error, folder.path().string())) << error;
     ExpectOnlyWholeClips(folder.path());
-    writer.Commit(1, SmallClip(layout, 1), {});
+    CommitNow(writer, 1, SmallClip(layout, 1), {});
     EXPECT_EQ(writer.done(), (std::set<int64_t>{0, 1}));
   }
 }
@@ -146,8 +149,8 @@ TEST(DatasetFaults, AClipThatCantBeWrittenIsNotThere) {
 TEST(DatasetFaults, AManifestLineThatCantBeWrittenTakesItsClipWithIt) {
   for (const Layout& layout : {Sequence(), Pairs()}) {
     const TempFolder folder;
-    DatasetWriter writer(folder.path(), layout, Description());
-    writer.Commit(0, SmallClip(layout, 0), {});
+    auto writer = std::make_unique<DatasetWriter>(folder.path(), layout, Description());
+    CommitNow(*writer, 0, SmallClip(layout, 0), {});
     rlimit old_limit, limit;
     getrlimit(RLIMIT_FSIZE, &old_limit);
     limit = old_limit;
@@ -155,12 +158,16 @@ TEST(DatasetFaults, AManifestLineThatCantBeWrittenTakesItsClipWithIt) {
     const auto old_handler = signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &limit);
     const std::string error =
-        ErrorOf<std::runtime_error>([&] { writer.Commit(1, SmallClip(layout, 1), {}); });
+        ErrorOf<std::runtime_error>([&] { CommitNow(*writer, 1, SmallClip(layout, 1), {}); });
     setrlimit(RLIMIT_FSIZE, &old_limit);
     signal(SIGXFSZ, old_handler);
     EXPECT_TRUE(Contains(error, "manifest.jsonl")) << error;
     ExpectOnlyWholeClips(folder.path());
-    writer.Commit(2, SmallClip(layout, 2), {});
+    // Nothing is taken any more until the folder is opened again.
+    EXPECT_THROW(CommitNow(*writer, 2, SmallClip(layout, 2), {}), std::runtime_error);
+    writer.reset();
+    writer = std::make_unique<DatasetWriter>(folder.path(), layout, Description());
+    CommitNow(*writer, 2, SmallClip(layout, 2), {});
     EXPECT_EQ(Manifest(folder / "manifest.jsonl").done(), (std::set<int64_t>{0, 2}));
   }
 }
@@ -176,7 +183,7 @@ TEST(DatasetFaults, FullDisk) {
     const fs::path set = disk / (layout.kind == LayoutKind::kPairs ? "pairs" : "sequence");
     try {
       DatasetWriter writer(set, layout, Description());
-      for (int64_t clip = 0; clip < 1000; ++clip) writer.Commit(clip, SmallClip(layout, clip), {});
+      for (int64_t clip = 0; clip < 1000; ++clip) CommitNow(writer, clip, SmallClip(layout, clip), {});
     } catch (const std::runtime_error& full) {
       error = full.what();
     }

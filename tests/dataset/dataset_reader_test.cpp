@@ -35,7 +35,7 @@ std::vector<Frame> WriteClip(DatasetWriter& writer, const Layout& layout, int64_
     }
     written.push_back({Quantise(frame.turb, encoding), Quantise(frame.clean, encoding), frame.truth});
   }
-  writer.Commit(clip, files, {{"note", clip}});
+  CommitNow(writer, clip, files, {{"note", clip}});
   return written;
 }
 
@@ -45,7 +45,7 @@ TEST(DatasetReader, ReadsBothLayoutsBack) {
     DatasetWriter writer(folder.path(), layout, Description());
     const auto first = WriteClip(writer, layout, 0, 2, /*still=*/false, kBoth);
     const auto second = WriteClip(writer, layout, 1, 2, false, {});
-    writer.Fail(2, {{"error", "bad source"}});
+    FailNow(writer, 2, {{"error", "bad source"}});
 
     const DatasetReader reader(folder.path());  // while it is being written
     EXPECT_EQ(reader.description(), Description());
@@ -97,10 +97,11 @@ TEST(DatasetReader, FramesAreInTheOrderOfTheirNumbers) {
   std::vector<ClipFile> files;
   for (const int64_t frame : {10001, 2, 9999, 10000})
     files.push_back({Sequence().Path(FrameKind::kTurb, 0, frame), {1}, ""});
-  writer.Commit(0, files, {});
-  EXPECT_EQ(DatasetReader(folder.path()).Files(0).turb,
-            (std::vector<std::string>{"clips/000000/turb/0002.png", "clips/000000/turb/9999.png",
-                                      "clips/000000/turb/10000.png", "clips/000000/turb/10001.png"}));
+  CommitNow(writer, 0, files, {});
+  std::vector<std::string> names;
+  for (const StoredFile& file : DatasetReader(folder.path()).Files(0).turb) names.push_back(file.name());
+  EXPECT_EQ(names, (std::vector<std::string>{"clips/000000/turb/0002.png", "clips/000000/turb/9999.png",
+                                             "clips/000000/turb/10000.png", "clips/000000/turb/10001.png"}));
 }
 
 TEST(DatasetReader, WhatIsMissing) {

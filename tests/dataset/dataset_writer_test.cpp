@@ -25,7 +25,7 @@ TEST(DatasetWriter, ACommittedClipIsThereAndInTheManifest) {
     DatasetWriter writer(folder / "new/set", layout, Description());
     EXPECT_TRUE(writer.done().empty());
     const auto files = SmallClip(layout, 3);
-    writer.Commit(3, files, {{"plan", "p"}});
+    CommitNow(writer, 3, files, {{"plan", "p"}});
     EXPECT_EQ(writer.done(), std::set<int64_t>{3});
 
     auto tree = Tree(folder / "new/set");
@@ -47,7 +47,10 @@ TEST(DatasetWriter, ACommittedClipIsThereAndInTheManifest) {
 
 TEST(DatasetWriter, NothingButTheSetIsLeft) {
   const TempFolder folder;
-  { DatasetWriter(folder.path(), Sequence(), Description()).Commit(0, SmallClip(Sequence(), 0), {}); }
+  {
+    DatasetWriter writer(folder.path(), Sequence(), Description());
+    CommitNow(writer, 0, SmallClip(Sequence(), 0), {});
+  }
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder.path())) names.insert(entry.path().filename());
   EXPECT_EQ(names, (std::set<std::string>{".lock", "clips", "dataset.json", "manifest.jsonl"}));
@@ -57,16 +60,16 @@ TEST(DatasetWriter, ContinuesWhereItStopped) {
   const TempFolder folder;
   {
     DatasetWriter writer(folder.path(), Sequence(), Description());
-    writer.Commit(0, SmallClip(Sequence(), 0), {});
-    writer.Fail(1, {{"error", "bad source"}});
+    CommitNow(writer, 0, SmallClip(Sequence(), 0), {});
+    FailNow(writer, 1, {{"error", "bad source"}});
   }
   DatasetWriter writer(folder.path(), Sequence(), Description());
   EXPECT_EQ(writer.done(), std::set<int64_t>{0});
   EXPECT_EQ(writer.failed(), std::set<int64_t>{1});
-  writer.Commit(1, SmallClip(Sequence(), 1), {});  // a failed clip may be tried again
+  CommitNow(writer, 1, SmallClip(Sequence(), 1), {});  // a failed clip may be tried again
   EXPECT_EQ(writer.done(), (std::set<int64_t>{0, 1}));
   EXPECT_TRUE(writer.failed().empty());
-  EXPECT_THROW(writer.Commit(0, SmallClip(Sequence(), 0), {}), std::invalid_argument);
+  EXPECT_THROW(CommitNow(writer, 0, SmallClip(Sequence(), 0), {}), std::invalid_argument);
   EXPECT_EQ(Manifest(folder / "manifest.jsonl").done(), (std::set<int64_t>{0, 1}));
 }
 
@@ -144,7 +147,7 @@ TEST(DatasetWriter, OtherPeoplesFilesAreLeftAlone) {
   // Our own leftovers of a kill at the very start are no such files.
   const TempFolder ours;
   ours.Put(".staging/0/turb/0000.png", "x");
-  ours.Put("dataset.json.new", "{");
+  ours.Put(".staging/dataset.json", "{");
   EXPECT_EQ(ErrorOfOpening(ours.path(), Description()), "");
   EXPECT_FALSE(fs::exists(ours / ".staging"));
 }
@@ -160,8 +163,8 @@ TEST(DatasetWriter, OneProcessAtATime) {
   const TempFolder folder;
   {
     DatasetWriter first(folder.path(), Sequence(), Description());
-    EXPECT_TRUE(Contains(ErrorOfOpening(folder.path(), Description()), "another process writes"));
-    first.Commit(0, SmallClip(Sequence(), 0), {});
+    EXPECT_TRUE(Contains(ErrorOfOpening(folder.path(), Description()), "writes to this data set"));
+    CommitNow(first, 0, SmallClip(Sequence(), 0), {});
   }
   EXPECT_EQ(ErrorOfOpening(folder.path(), Description()), "");
 }
@@ -170,11 +173,11 @@ TEST(DatasetWriter, SeveralThreads) {
   for (const Layout& layout : {Sequence(), Pairs()}) {
     const TempFolder alone, together;
     DatasetWriter one(alone.path(), layout, Description()), several(together.path(), layout, Description());
-    for (int64_t clip = 0; clip < 16; ++clip) one.Commit(clip, SmallClip(layout, clip), {});
+    for (int64_t clip = 0; clip < 16; ++clip) CommitNow(one, clip, SmallClip(layout, clip), {});
     std::vector<std::thread> threads;
     for (int t = 0; t < 4; ++t)
       threads.emplace_back([&, t] {
-        for (int64_t clip = t; clip < 16; clip += 4) several.Commit(clip, SmallClip(layout, clip), {});
+        for (int64_t clip = t; clip < 16; clip += 4) CommitNow(several, clip, SmallClip(layout, clip), {});
       });
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(several.done().size(), 16u);
@@ -191,9 +194,9 @@ TEST(DatasetWriter, PlacesThatAreNotTheClips) {
   for (const std::string path :
        {"", "/tmp/x", "../x", "clips/000001/../../x", "clips/000002/turb/0.png", "dataset.json"}) {
     const std::vector<ClipFile> files = {{path, {1}, ""}};
-    EXPECT_THROW(writer.Commit(1, files, {}), std::invalid_argument) << path;
+    EXPECT_THROW(CommitNow(writer, 1, files, {}), std::invalid_argument) << path;
   }
-  EXPECT_THROW(writer.Commit(-1, {}, {}), std::invalid_argument);
+  EXPECT_THROW(CommitNow(writer, -1, {}, {}), std::invalid_argument);
   EXPECT_TRUE(writer.done().empty());
 }
 

@@ -74,11 +74,11 @@ TEST(Files, OneLockAtATime) {
   const TempFolder folder;
   {
     FileHandle first(folder / "lock", O_CREAT | O_RDWR), second(folder / "lock", O_CREAT | O_RDWR);
-    EXPECT_TRUE(first.TryLock());
-    EXPECT_FALSE(second.TryLock());
+    EXPECT_EQ(first.TryLock(), Lock::kHeld);
+    EXPECT_EQ(second.TryLock(), Lock::kTaken);
   }
   FileHandle third(folder / "lock", O_CREAT | O_RDWR);
-  EXPECT_TRUE(third.TryLock());  // gone with its holder
+  EXPECT_EQ(third.TryLock(), Lock::kHeld);  // gone with its holder
 }
 
 TEST(Files, CutToASize) {

@@ -13,8 +13,12 @@ TEST(Layout, Sequence) {
   EXPECT_EQ(layout.Path(FrameKind::kTurb, 123, 0), "clips/000123/turb/0000.png");
   EXPECT_EQ(layout.Path(FrameKind::kClean, 0, 15), "clips/000000/clean/0015.png");
   EXPECT_EQ(layout.Path(FrameKind::kTruth, 123, 0), "clips/000123/truth/0000.exr");
-  EXPECT_EQ(layout.Path(FrameKind::kTurb, 12345678, 12345), "clips/12345678/turb/12345.png");
-  EXPECT_EQ(layout.ClipFolder(123), "clips/000123");
+  EXPECT_EQ(layout.Path(FrameKind::kTurb, 999, 12345), "clips/000999/turb/12345.png");
+  // At most a thousand clips a folder.
+  EXPECT_EQ(layout.Path(FrameKind::kTurb, 1000, 0), "clips.001/001000/turb/0000.png");
+  EXPECT_EQ(layout.Path(FrameKind::kTurb, 99999, 0), "clips.099/099999/turb/0000.png");
+  EXPECT_EQ(layout.Path(FrameKind::kTurb, 12345678, 0), "clips.12345/12345678/turb/0000.png");
+  EXPECT_EQ(layout.ClipFolders(123), std::vector<std::string>{"clips/000123"});
   EXPECT_EQ(Layout{.format = FileFormat::kExr}.Path(FrameKind::kTurb, 1, 1), "clips/000001/turb/0001.exr");
 }
 
@@ -24,12 +28,52 @@ TEST(Layout, PairsHaveEqualNamesInOrder) {
   EXPECT_EQ(layout.Path(FrameKind::kClean, 0, 2), "set/train/noturb/000002.png");
   EXPECT_EQ(layout.Path(FrameKind::kTruth, 0, 2), "set/train/truth/000002.exr");
   EXPECT_EQ(layout.Path(FrameKind::kTurb, 1, 0), "set/test/turb/000003.png");
-  EXPECT_EQ(layout.ClipFolder(0), "");
+  EXPECT_TRUE(layout.ClipFolders(0).empty());
   std::vector<std::string> names;
   for (int64_t clip = 0; clip < 400; clip += 2)
     for (int64_t frame = 0; frame < 3; ++frame) names.push_back(layout.Path(FrameKind::kTurb, clip, frame));
   EXPECT_TRUE(std::ranges::is_sorted(names));
   EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+TEST(Layout, RestormerIsNamedAsItsLoaderSays) {
+  const Layout layout{.kind = LayoutKind::kRestormer, .name = "gt", .test_fraction = 0.5};
+  EXPECT_EQ(layout.Path(FrameKind::kTurb, 0, 0), "gt/train/lq/000000.png");
+  EXPECT_EQ(layout.Path(FrameKind::kClean, 1, 0), "gt/test/gt/000001.png");
+  EXPECT_TRUE(layout.ClipFolders(0).empty());
+}
+
+// Each part is numbered from 000, as a set of its own.
+TEST(Layout, BasicsrHasPartsOfAThousandClips) {
+  const Layout layout{.kind = LayoutKind::kBasicsr};
+  EXPECT_EQ(layout.Path(FrameKind::kTurb, 7, 99), "lq/007/00000099.png");
+  EXPECT_EQ(layout.Path(FrameKind::kClean, 999, 0), "gt/999/00000000.png");
+  EXPECT_EQ(layout.Path(FrameKind::kTurb, 1000, 0), "part001/lq/000/00000000.png");
+  EXPECT_EQ(layout.Path(FrameKind::kTruth, 98765, 1), "part098/truth/765/00000001.exr");
+  EXPECT_EQ(layout.ClipFolders(1002),
+            (std::vector<std::string>{"part001/lq/002", "part001/gt/002", "part001/truth/002"}));
+}
+
+TEST(Layout, WebdatasetPutsNeighboursInOneTar) {
+  const Layout layout{.kind = LayoutKind::kWebdataset, .clips_per_tar = 10};
+  EXPECT_EQ(layout.Path(FrameKind::kTurb, 129, 3), "shards/000012.tar/000129.turb.0003.png");
+  EXPECT_EQ(layout.Path(FrameKind::kTruth, 130, 0), "shards/000013.tar/000130.truth.0000.exr");
+  EXPECT_EQ(layout.UnitOf(129), 12);
+  EXPECT_THROW((Layout{.kind = LayoutKind::kWebdataset, .clips_per_tar = 0}.Validate()),
+               std::invalid_argument);
+}
+
+TEST(Layout, AKindIsKnownByItsPath) {
+  for (const LayoutKind kind : {LayoutKind::kSequence, LayoutKind::kPairs, LayoutKind::kRestormer,
+                                LayoutKind::kBasicsr, LayoutKind::kWebdataset})
+    for (const char* name : {"set", "gt", "turb"})
+      for (const FrameKind frame_kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth}) {
+        const Layout layout{.kind = kind, .name = name};
+        EXPECT_EQ(KindOfPath(layout.Path(frame_kind, 1234, 0)), frame_kind);
+      }
+  for (const char* path :
+       {"", "dataset.json", "gt", "clips/000000/mask/0000.png", "shards/000000.tar/000001.json"})
+    EXPECT_FALSE(KindOfPath(path)) << path;
 }
 
 TEST(Layout, TheShareOfTestClipsIsExact) {

@@ -38,14 +38,17 @@ TEST(Manifest, ATornLastLineIsNotThere) {
     const auto path = folder.Put("m", kDone0 + kDone1.substr(0, cut));
     const Manifest manifest(path);
     EXPECT_EQ(manifest.done(), std::set<int64_t>{0}) << cut;
-    EXPECT_EQ(manifest.whole_bytes(), kDone0.size());
-    ManifestWriter(path, manifest.whole_bytes()).Append(Json::parse(kFailed1));
+    EXPECT_EQ(manifest.whole_bytes(path), kDone0.size());
+    const std::vector<Json> lines = {Json::parse(kFailed1)};
+    ManifestWriter(path, manifest.whole_bytes(path)).Append(lines);
     const std::vector<uint8_t> bytes = ReadFile(path);
     EXPECT_EQ(std::string(bytes.begin(), bytes.end()), kDone0 + kFailed1) << cut;
   }
   // After a power cut a line may be zeros, or end in a newline all the same.
-  EXPECT_EQ(Manifest(folder.Put("m", kDone0 + std::string(100, '\0'))).whole_bytes(), kDone0.size());
-  EXPECT_EQ(Manifest(folder.Put("m", kDone0 + "{\"clip\":1,\"sta\n")).whole_bytes(), kDone0.size());
+  for (const std::string& torn : {std::string(100, '\0'), std::string("{\"clip\":1,\"sta\n")}) {
+    const auto path = folder.Put("m", kDone0 + torn);
+    EXPECT_EQ(Manifest(path).whole_bytes(path), kDone0.size());
+  }
 }
 
 TEST(Manifest, ADamagedLineElsewhereIsAnErrorWithItsNumber) {
@@ -66,8 +69,10 @@ TEST(Manifest, LinesAreWhole) {
   const TempFolder folder;
   {
     ManifestWriter writer(folder / "m", 0);
-    writer.Append({{"clip", 0}, {"status", "done"}, {"text", "two\nlines and \xff\xfe no UTF-8"}});
-    writer.Append({{"clip", 1}, {"status", "failed"}});
+    const std::vector<Json> lines = {
+        {{"clip", 0}, {"status", "done"}, {"text", "two\nlines and \xff\xfe no UTF-8"}},
+        {{"clip", 1}, {"status", "failed"}}};
+    writer.Append(lines);
   }
   const Manifest manifest(folder / "m");
   EXPECT_EQ(manifest.done(), std::set<int64_t>{0});

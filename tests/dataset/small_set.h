@@ -35,6 +35,19 @@ inline std::vector<ClipFile> SmallClip(const Layout& layout, int64_t clip, bool 
   return files;
 }
 
+// The whole way of a clip at once, durable when it returns.
+inline void CommitNow(DatasetWriter& writer, int64_t clip, const std::vector<ClipFile>& files,
+                      Json line = Json::object()) {
+  StagedClip staged = writer.Stage(clip);
+  for (const ClipFile& file : files) staged.Add(file);
+  writer.Commit(std::move(staged), std::move(line));
+  writer.Flush();
+}
+inline void FailNow(DatasetWriter& writer, int64_t clip, Json line) {
+  writer.Fail(clip, std::move(line));
+  writer.Flush();
+}
+
 // Every file below a folder by its path, with its content; what starts with a dot is left out.
 inline std::map<std::string, std::string> Tree(const std::filesystem::path& folder) {
   std::map<std::string, std::string> tree;

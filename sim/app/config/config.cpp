@@ -4,11 +4,11 @@
 
 #include "sim/app/config/distribution.h"
 #include "sim/app/config/hash.h"
+#include "sim/app/config/json_reader.h"
 #include "sim/app/config/keys.h"
 #include "sim/app/config/rules.h"
 #include "sim/app/config/sets.h"
 #include "sim/app/config/value.h"
-#include "sim/app/config/json_reader.h"
 #include "sim/dataset/sha256.h"
 
 namespace shimmer::app {
@@ -69,6 +69,17 @@ ConfigFile ConfigFile::Parse(const std::string& text, std::span<const std::strin
     file.resolved_[bits] = file.fixed_.output.bits = kExrBits;
   CheckRules(file.resolved_, file.fixed_);
   return file;
+}
+
+cv::Size ConfigFile::LargestSize() const {
+  const Json& size = resolved_.at(KeyOf(DefaultConfig().size).name());
+  if (!size.is_object()) return fixed_.size;
+  cv::Size largest;
+  for (const Json& one : size.at(kChoice)) {
+    largest.width = std::max(largest.width, one.at(0).get<int>());
+    largest.height = std::max(largest.height, one.at(1).get<int>());
+  }
+  return largest;
 }
 
 Config ConfigFile::Draw(uint64_t clip, Json* drawn) const {

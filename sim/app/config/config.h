@@ -27,6 +27,9 @@ class ConfigFile {
   // The values that hold for the whole set. What is drawn for each clip has its default here.
   const Config& fixed() const { return fixed_; }
 
+  // The width and the height that no clip exceeds.
+  cv::Size LargestSize() const;
+
   // Values of one clip. drawn, where not null: an object of every drawn value by its path
   // ("tilt.strength_px").
   Config Draw(uint64_t clip, Json* drawn) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/app/config/error.h"
+#include "sim/dataset/layout.h"
 #include "sim/drawn/drawn.h"
 #include "sim/fields.h"
 #include "sim/scene.h"
@@ -19,7 +20,7 @@ using sim::Field;
 enum class Crop { kRandom, kCentre };
 enum class Start { kRandom, kFirst };
 enum class Format { kPng, kExr };
-enum class LayoutKind { kSequence, kPairs };
+using dataset::LayoutKind;
 
 // Where clean frames come from: exactly one of images, video, sequence, drawn.
 struct SourceParams {
@@ -87,9 +88,11 @@ struct OutputParams {
   int bits = 8;  // png: 8 or 16; exr: 16 (half) or 32 (float)
   LayoutKind layout = LayoutKind::kSequence;
   std::vector<std::string> truth;  // any of "tilt", "sigma"
-  std::string name = "shimmer";    // pairs: the folder that training code calls data_name
-  double test_fraction = 0.02;     // pairs: share of the clips that go to NAME/test
-  int frames_per_clip = 1;         // pairs: frames taken of each clip
+  std::string name = "shimmer";    // pairs, restormer: the folder that training code calls data_name
+  double test_fraction = 0.02;     // pairs, restormer: share of the clips that go to NAME/test
+  int frames_per_clip = 1;         // pairs, restormer: frames taken of each clip
+  bool any_length = false;         // basicsr: clips of other than 100 frames
+  int tar_mb = 256;                // webdataset: most MB of a tar
 
   template <class Self, class Visitor>
   static void Fields(Self& self, Visitor& visit) {
@@ -106,7 +109,7 @@ struct OutputParams {
                 .per_clip = false},
           self.bits);
     visit(Field{.name = "layout",
-                .names = {"sequence", "pairs"},
+                .names = {"sequence", "pairs", "restormer", "basicsr", "webdataset"},
                 .help = "tree of files (docs/formats.md)",
                 .per_clip = false},
           self.layout);
@@ -118,21 +121,32 @@ struct OutputParams {
     visit(Field{.name = "name",
                 .low = 1,
                 .high = 100,
-                .help = "layout pairs: name of the set's folder",
+                .help = "layouts pairs, restormer: name of the set's folder",
                 .per_clip = false},
           self.name);
     visit(Field{.name = "test_fraction",
                 .low = 0,
                 .high = 1,
-                .help = "layout pairs: share of the clips that go to test/",
+                .help = "layouts pairs, restormer: share of the clips that go to test/",
                 .per_clip = false},
           self.test_fraction);
     visit(Field{.name = "frames_per_clip",
                 .low = 1,
                 .high = 100000,
-                .help = "layout pairs: frames taken of each clip, evenly spread",
+                .help = "layouts pairs, restormer: frames taken of each clip, evenly spread",
                 .per_clip = false},
           self.frames_per_clip);
+    visit(Field{.name = "any_length",
+                .help = "layout basicsr: clips of other lengths than the 100 frames that its loader wants",
+                .per_clip = false},
+          self.any_length);
+    visit(Field{.name = "tar_mb",
+                .unit = "MB",
+                .low = 1,
+                .high = 1e6,
+                .help = "layout webdataset: the most that a tar of more than one clip may hold",
+                .per_clip = false},
+          self.tar_mb);
   }
 };
 

@@ -54,6 +54,18 @@ void CheckFrames(const Config& fixed) {
                                             std::to_string(fixed.frames));
 }
 
+// The REDS loader of BasicSR counts on 100 frames a clip, and numbers clips with three digits.
+void CheckBasicsr(const Config& fixed) {
+  constexpr int kRedsFrames = 100;
+  if (fixed.output.layout != LayoutKind::kBasicsr || fixed.output.any_length || fixed.frames == kRedsFrames)
+    return;
+  const Config& all = DefaultConfig();
+  throw ConfigError(KeyOf(all.frames).pointer,
+                    "is " + std::to_string(fixed.frames) + ", must be " + std::to_string(kRedsFrames) +
+                        " where output.layout is basicsr, for its loader wants that (" +
+                        KeyOf(all.output.any_length).path + "=true allows others)");
+}
+
 void CheckOutput(const OutputParams& output) {
   const OutputParams& all = DefaultConfig().output;
   const std::vector<int> bits = output.format == Format::kPng ? std::vector{8, 16} : std::vector{16, 32};
@@ -77,6 +89,7 @@ void CheckRules(const Json& resolved, const Config& fixed) {
   CheckAlternatives(AllKeys(), resolved);
   CheckSigmas(resolved);
   CheckFrames(fixed);
+  CheckBasicsr(fixed);
   CheckOutput(fixed.output);
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sim/app/config/keys.h"
 #include "sim/app/config/json_reader.h"
+#include "sim/app/config/keys.h"
 
 namespace shimmer::app {
 namespace {

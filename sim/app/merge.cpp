@@ -1,0 +1,65 @@
+#include "sim/app/merge.h"
+
+#include <cstdio>
+#include <map>
+#include <optional>
+
+#include "sim/app/finish.h"
+#include "sim/app/generate.h"
+#include "sim/app/job.h"
+#include "sim/dataset/dataset_folder.h"
+#include "sim/dataset/dataset_reader.h"
+#include "sim/dataset/merge.h"
+
+namespace shimmer::app {
+namespace {
+
+// N of manifest.003-of-008.jsonl, if a shard has written one.
+int64_t ShardCountIn(const std::vector<std::filesystem::path>& folders) {
+  for (const auto& folder : folders)
+    for (const auto& manifest : dataset::ManifestsIn(folder)) {
+      const std::string name = manifest.filename().string();
+      const size_t of = name.find("-of-");
+      if (of != std::string::npos) return std::atoll(name.c_str() + of + 4);
+    }
+  return 1;
+}
+
+std::string ClipsText(int64_t clips) { return std::to_string(clips) + (clips == 1 ? " clip" : " clips"); }
+
+}  // namespace
+
+int Merge(const MergeOptions& options) {
+  std::vector<std::filesystem::path> folders = options.from;
+  folders.push_back(options.folder);
+  const int64_t shards = ShardCountIn(folders);
+  const Json description = dataset::ReadDescription(options.from.empty() ? options.folder : options.from[0]);
+  const dataset::Layout layout = LayoutOfDataset(folders[0], description);
+  {
+    dataset::DatasetWriter writer(options.folder, layout, description);  // clears away what kills have left
+    for (const auto& from : options.from) dataset::Adopt(writer, from);
+  }
+  dataset::UniteManifests(options.folder);
+  FinishDataset(options.folder, layout);
+
+  const dataset::DatasetReader set(options.folder);
+  const int64_t clips = ConfigOfDataset(options.folder, description).fixed().clips;
+  int64_t done = 0, failed = 0;
+  std::map<int64_t, int64_t> missing_of_shard;
+  for (int64_t clip = 0; clip < clips; ++clip) {
+    if (set.clips().contains(clip))
+      ++done;
+    else if (set.failed().contains(clip))
+      ++failed;
+    else
+      ++missing_of_shard[layout.UnitOf(clip) % shards];
+  }
+  std::printf("%s: %lld of %s done, %lld failed\n", options.folder.c_str(), static_cast<long long>(done),
+              ClipsText(clips).c_str(), static_cast<long long>(failed));
+  for (const auto& [shard, missing] : missing_of_shard)
+    std::printf("shard %lld/%lld: %s missing\n", static_cast<long long>(shard),
+                static_cast<long long>(shards), ClipsText(missing).c_str());
+  return done == clips ? kExitDone : kExitFailed;
+}
+
+}  // namespace shimmer::app

@@ -1,0 +1,24 @@
+// Which clips of a data set are still to be made.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "sim/dataset/layout.h"
+#include "sim/dataset/shard.h"
+
+namespace shimmer::dataset {
+
+struct Wanted {
+  int64_t clips = 0;  // of the config: 0 .. clips - 1
+  Shard shard;
+  bool retry_failed = false;  // clips that failed once too
+  std::vector<int64_t> only;  // not empty: these, failed ones too, with what stands in a tar with them
+};
+
+// In ascending order. Clips that stand in one tar are all pending or none.
+std::vector<int64_t> PendingClips(const Layout& layout, const Wanted& wanted, const std::set<int64_t>& done,
+                                  const std::set<int64_t>& failed);
+
+}  // namespace shimmer::dataset
