@@ -11,20 +11,13 @@
 #include <thread>
 
 #include "sim/app/clip_pipeline.h"
+#include "sim/app/dry_run.h"
 #include "sim/app/finish.h"
 #include "sim/app/job.h"
 #include "sim/app/progress.h"
-#include "sim/dataset/pending.h"
 
 namespace shimmer::app {
 namespace {
-
-void RequireClips(const std::vector<int64_t>& only_clips, int64_t clips) {
-  for (int64_t clip : only_clips)
-    if (clip < 0 || clip >= clips)
-      throw std::invalid_argument("--clip " + std::to_string(clip) + ": must be in [0, " +
-                                  std::to_string(clips - 1) + "]");
-}
 
 // Waits for another writer if the person wants that.
 std::unique_ptr<dataset::DatasetWriter> OpenFolder(const GenerateOptions& options, const Job& job,
@@ -71,21 +64,26 @@ std::string Summary(const GenerateOptions& options, const Count& count, double s
 
 }  // namespace
 
+dataset::Wanted GenerateOptions::WantedOf(int64_t clips) const {
+  for (const int64_t clip : only_clips)
+    if (clip < 0 || clip >= clips)
+      throw std::invalid_argument("--clip " + std::to_string(clip) + ": must be in [0, " +
+                                  std::to_string(clips - 1) + "]");
+  return {.clips = clips, .shard = shard, .retry_failed = retry_failed, .only = only_clips};
+}
+
 int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
   if (options.out.empty()) throw std::invalid_argument("--out: is empty, must be a folder");
   options.shard.Validate();
+  if (options.dry_run) return DryRun(options, stop);
   const Job job = Job::Load(options.config, options.sets, options.out);
   const int64_t clips = job.config.fixed().clips;
-  RequireClips(options.only_clips, clips);
+  const dataset::Wanted wanted = options.WantedOf(clips);
   const auto start = std::chrono::steady_clock::now();
   const std::unique_ptr<dataset::DatasetWriter> writer = OpenFolder(options, job, stop);
   if (!writer) return kExitInterrupted;
-  const std::vector<int64_t> pending = dataset::PendingClips(writer->layout(),
-                                                             {.clips = clips,
-                                                              .shard = options.shard,
-                                                              .retry_failed = options.retry_failed,
-                                                              .only = options.only_clips},
-                                                             writer->done(), writer->failed());
+  const std::vector<int64_t> pending =
+      dataset::PendingClips(writer->layout(), wanted, writer->done(), writer->failed());
 
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const MemoryPlan memory = PlanMemory(options.memory_bytes, job.config, threads);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/app/clip_size.h"
-#include "sim/dataset/shard.h"
+#include "sim/dataset/pending.h"
 
 namespace shimmer::app {
 
@@ -22,6 +22,9 @@ struct GenerateOptions {
   int threads = 0;            // 0: as many as the machine has
   int64_t memory_bytes = kDefaultMemory_bytes;
   bool quiet = false;
+
+  // Of a config's clips. Throws std::invalid_argument for a clip that there is not.
+  dataset::Wanted WantedOf(int64_t clips) const;
 };
 
 inline constexpr int kExitDone = 0, kExitFailed = 1, kExitWrongInput = 2, kExitInterrupted = 130;
