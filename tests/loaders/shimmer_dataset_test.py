@@ -108,6 +108,15 @@ class Items(sets.SetsTest):
             found.add(tuple(halves["test"]))
         self.assertEqual(len(found), 1)
 
+    def test_splits_are_those_of_the_program_where_rounding_decides(self):
+        from shimmer_dataset import ShimmerDataset
+        folder = self.make("set", "pairs", clips=101, frames=1, size=[16, 16], output_truth=[],
+                           output_test_fraction=0.29)
+        dataset = ShimmerDataset(folder, split="test")  # 100 * 0.29 is 28.999999999999996
+        self.assertEqual(len(dataset), len(list((folder / "shimmer/test/turb").iterdir())))
+        for index in range(len(dataset)):
+            self.assertIn("shimmer/test/", dataset.line(index)["files"][0]["path"])
+
     def test_a_crop_is_the_same_part_of_turb_clean_and_truth(self):
         import torch
         from shimmer_dataset import ShimmerDataset
