@@ -71,6 +71,18 @@ class Manifests(sets.SetsTest):
         self.write(self.lines[2], self.failed(0))
         self.assertEqual(self.clips(), [0, 1, 2])
 
+    def test_shards_of_the_program_are_the_set(self):
+        from shimmer_dataset import ShimmerDataset
+        for layout in ("sequence", "webdataset"):
+            whole = self.make(f"{layout}-whole", layout, clips=7)
+            for shard in ("0/2", "1/2"):
+                parts = self.make(f"{layout}-parts", layout, clips=7, arguments=["--shard", shard])
+            self.assertFalse((parts / "manifest.jsonl").exists())
+            whole, parts = ShimmerDataset(whole), ShimmerDataset(parts)
+            self.assertEqual((len(whole), len(parts)), (21, 21))
+            for ours, theirs in zip(whole, parts):
+                self.assertEqual([frame.tolist() for frame in ours], [frame.tolist() for frame in theirs])
+
     def test_a_manifest_that_was_replaced_is_noticed(self):
         from shimmer_dataset import ShimmerDataset
         self.write(*self.lines)

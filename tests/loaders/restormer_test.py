@@ -80,6 +80,11 @@ class Restormer(sets.SetsTest):
         self.assertEqual(list(options["datasets"]), ["train"])
         self.assertIsNone(options.get("val"))
 
+    def test_exr_has_no_options_for_it_cannot_be_read(self):
+        folder = self.make("set", "restormer", output_format="exr")
+        self.assertTrue((folder / "shimmer/train/lq/000000.exr").exists())
+        self.assertFalse((folder / "shimmer/restormer.yml").exists())
+
     def test_options_are_what_train_py_reads(self):
         options = options_of(self.make("set", "restormer", output_test_fraction=0.5))
         self.assertLessEqual({"name", "model_type", "scale", "num_gpu", "manual_seed", "datasets", "network_g", "path",

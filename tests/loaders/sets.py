@@ -87,7 +87,7 @@ def files_of(line, kind):
     """A clip's files of a kind, in the order of their numbers. Knows kinds by their names alone, in any layout."""
     def kind_of(file):
         if "member" in file:
-            return KINDS[file["member"].split(".")[1]]
+            return KINDS.get(file["member"].split(".")[1])  # a sample's json is none of them
         return [KINDS[part] for part in file["path"].split("/") if part in KINDS][-1]
     files = [file for file in line["files"] if kind_of(file) == kind]
     return sorted(files, key=lambda file: file.get("member", file["path"]))
