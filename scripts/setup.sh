@@ -3,6 +3,7 @@
 #
 #   scripts/setup.sh             what building, the demo and the tests need
 #   scripts/setup.sh --photos    also 36 real photographs (wallpapers), for the demo and training sets
+#   scripts/setup.sh --training  also what scripts/train/shimmer_dataset.py reads sets with, and PyTorch
 #   scripts/setup.sh --all       all of it, with the peers that some tests compare against
 set -euo pipefail
 
@@ -15,15 +16,17 @@ required=(
   python3
 )
 photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
+training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml)
 # Peers that single tests use: the noise library that the paper names; readers of what we write.
-peers=(python3-noise python3-numpy python3-jsonschema python3-openimageio)
+peers=(python3-noise python3-jsonschema)
 
 packages=("${required[@]}")
 for option in "$@"; do
   case "$option" in
     --photos) packages+=("${photos[@]}") ;;
-    --all) packages+=("${photos[@]}" "${peers[@]}") ;;
-    *) echo "setup.sh: unknown option '$option'; --photos and --all are the two" >&2; exit 2 ;;
+    --training) packages+=("${training[@]}") ;;
+    --all) packages+=("${photos[@]}" "${training[@]}" "${peers[@]}") ;;
+    *) echo "setup.sh: unknown option '$option'; --photos, --training and --all are those there are" >&2; exit 2 ;;
   esac
 done
 

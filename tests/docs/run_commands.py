@@ -44,9 +44,10 @@ class Runner:
         if block.language == "sh" and "check-only" in block.tags:
             self.check_scripts(block)
         elif block.language == "sh":
-            self.execute(block, ["bash", "-euo", "pipefail", "-c", block.text])
+            self.execute(block, ["bash", "-euo", "pipefail", "-c", block.text],
+                         filter(None, block.tags.get("needs", "").split(",")))
         elif block.language == "python":
-            self.run_python(block)
+            self.execute(block, [PYTHON, "-c", block.text], imports_of(block.text))
         elif block.language == "json":
             self.write_json(block)
         elif block.language != "text":
@@ -56,7 +57,13 @@ class Runner:
         elif "output" in block.tags or "exact" in block.tags:
             self.compare(block)
 
-    def execute(self, block, command):
+    def execute(self, block, command, modules):
+        """Skips the block, and with it what is compared with its output, if a module is missing."""
+        absent = [name for name in modules if not self.has(name)]
+        if absent:
+            self.printed = None
+            self.skipped.append(f"{block}: needs {', '.join(absent)} (scripts/setup.sh --all)")
+            return
         done = subprocess.run(command, cwd=self.folder, env=self.environment, text=True, timeout=SECONDS,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.printed = done.stdout
@@ -68,20 +75,10 @@ class Runner:
             if not path.exists() or (path.is_file() and path.stat().st_size == 0):
                 raise Fault(f"{name} is not there afterwards")
 
-    def run_python(self, block):
-        modules = set()
-        for node in ast.walk(ast.parse(block.text)):
-            if isinstance(node, ast.Import):
-                modules |= {alias.name for alias in node.names}
-            elif isinstance(node, ast.ImportFrom):
-                modules.add(node.module)
-        absent = [name for name in sorted(modules)
-                  if subprocess.run([PYTHON, "-c", f"import {name}"], capture_output=True).returncode]
-        self.printed = None
-        if absent:
-            self.skipped.append(f"{block}: needs {', '.join(absent)} (scripts/setup.sh --all)")
-        else:
-            self.execute(block, [PYTHON, "-c", block.text])
+    def has(self, module):
+        """Modules may also lie in the page's folder."""
+        command = [PYTHON, "-B", "-c", f"import {module}"]
+        return subprocess.run(command, cwd=self.folder, capture_output=True).returncode == 0
 
     # Blocks that install packages, or that build and test all of this, of which this very test is a part: they
     # would take minutes, change the machine, and run themselves. What is checked here is that their scripts exist
@@ -119,6 +116,17 @@ class Runner:
             if not found:
                 raise Fault(f"'{line}' was not printed, or not in this order; what was printed:\n{self.printed}")
             at = found.end()
+
+
+def imports_of(program):
+    """Names of the modules that a Python program imports, sorted."""
+    modules = set()
+    for node in ast.walk(ast.parse(program)):
+        if isinstance(node, ast.Import):
+            modules |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            modules.add(node.module)
+    return sorted(modules)
 
 
 def run_page(path, program, update):

@@ -80,6 +80,18 @@ class RunCommands(unittest.TestCase):
         skipped, _ = self.run_text(page(("python", "import no_such_module_as_this"), ("text output", "x")))
         self.assertEqual(len(skipped), 1)
         self.assertIn("no_such_module_as_this", skipped[0])
+        skipped, _ = self.run_text(page(("sh needs=json,no_such_module_as_this", "exit 1"), ("text output", "x")))
+        self.assertEqual(len(skipped), 1)
+        self.assertIn("needs no_such_module_as_this", skipped[0])
+
+    def test_modules_may_lie_in_the_folder(self):
+        skipped, _ = self.run_text(page(
+            ("sh", "echo 'value = 7' > its_own.py"),
+            ("python", "import its_own; print(its_own.value)"),
+            ("text output", "7"),
+            ("sh needs=json,its_own", "echo runs"),
+            ("text output", "runs")))
+        self.assertEqual(skipped, [])
 
     def test_update_writes_exact_blocks_and_nothing_else(self):
         before = page(("sh", "echo a; echo b"), ("text exact", "old"), ("sh", "echo c"), ("text exact", "1\n2\n3"))
