@@ -95,12 +95,12 @@ SourceList SourceList::Find(const SourceParams& source, const fs::path& config_f
   return list;
 }
 
-std::unique_ptr<dataset::FrameReader> SourceList::Open(size_t item) const {
+std::unique_ptr<dataset::FrameReader> SourceList::Open(size_t item, dataset::PictureCache& pictures) const {
   switch (kind_) {
     case SourceKind::kImages:
-      return dataset::OpenStill(items_.at(item));
+      return dataset::OpenStill(items_.at(item), &pictures);
     case SourceKind::kSequence:
-      return dataset::OpenSequence(items_.at(item));
+      return dataset::OpenSequence(items_.at(item), &pictures);
     case SourceKind::kDrawn:
       throw std::logic_error("a drawn scene has no file to open");
     case SourceKind::kVideo:

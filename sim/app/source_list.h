@@ -34,8 +34,9 @@ class SourceList {
   const Json& Record(size_t item) const { return records_.at(item); }
   const Json& Records() const { return records_; }  // an array, in the order of items()
 
-  // Throws std::runtime_error. A video's frames are counted once, by decoding it, for all clips that use it.
-  std::unique_ptr<dataset::FrameReader> Open(size_t item) const;
+  // Pictures are read through the cache, which must outlive the reader. Throws std::runtime_error. A video's
+  // frames are counted once, by decoding it, for all clips that use it.
+  std::unique_ptr<dataset::FrameReader> Open(size_t item, dataset::PictureCache& pictures) const;
 
   // What is odd about a video that has been opened; empty if nothing.
   std::string Remark(size_t item) const;
