@@ -8,6 +8,7 @@
 
 #include "sim/app/config/config.h"
 #include "sim/app/source_list.h"
+#include "sim/dataset/interrupted.h"
 #include "sim/dataset/layout.h"
 #include "sim/dataset/picture_cache.h"
 #include "sim/plan.h"
@@ -35,10 +36,11 @@ struct Job {
   std::unique_ptr<dataset::PictureCache> pictures =
       std::make_unique<dataset::PictureCache>(kPictureCacheBytes);  // that sources are read through
 
-  // Reads the config file, applies the overrides, finds the sources (none below out, where clips go). Throws
-  // as LoadConfig, and ConfigError where a source pattern matches nothing.
+  // Reads the config file, applies the overrides, finds and hashes the sources (none below out, where clips
+  // go). Throws as LoadConfig, ConfigError where a source pattern matches nothing, and dataset::Interrupted
+  // once stop is set.
   static Job Load(const std::filesystem::path& config_path, std::span<const std::string> sets,
-                  const std::filesystem::path& out);
+                  const std::filesystem::path& out, const std::atomic<bool>& stop = dataset::kNeverStop);
 
   // What dataset.json says: config, its hash, sources with hashes, engine, version.
   Json Description() const;
