@@ -20,9 +20,10 @@ std::shared_ptr<const Picture> PictureCache::Read(const std::filesystem::path& p
       ++statistics_.hits;
       const Entry& entry = known->second;
       if (entry.place != by_age_.end()) by_age_.splice(by_age_.begin(), by_age_, entry.place);
-      const auto picture = entry.picture;
+      const auto read = entry.picture;
       lock.unlock();
-      return picture.get();
+      if (auto picture = read.get()) return picture;
+      return std::make_shared<const Picture>(ReadSamples(path));  // throws what is wrong with it, most likely
     }
     ++statistics_.misses;
     entries_.emplace(key, Entry{promise.get_future().share(), by_age_.end()});
@@ -35,7 +36,7 @@ std::shared_ptr<const Picture> PictureCache::Read(const std::filesystem::path& p
       const std::lock_guard lock(mutex_);
       entries_.erase(key);
     }
-    promise.set_exception(std::current_exception());
+    promise.set_value(nullptr);
     throw;
   }
   promise.set_value(picture);

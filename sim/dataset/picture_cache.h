@@ -36,7 +36,7 @@ class PictureCache {
 
  private:
   struct Entry {
-    std::shared_future<std::shared_ptr<const Picture>> picture;
+    std::shared_future<std::shared_ptr<const Picture>> picture;  // null if it can't be read
     std::list<std::string>::iterator place;  // in by_age_; its end while the picture is being read
     uint64_t bytes = 0;
   };
