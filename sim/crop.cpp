@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "sim/resample.h"
+
 namespace shimmer::sim {
 namespace {
 
@@ -12,11 +14,14 @@ std::vector<int> Reflected(int first, int n, int size) {
   return indices;
 }
 
+cv::Rect WithHalo(cv::Rect area, int halo_px) {
+  return {area.x - halo_px, area.y - halo_px, area.width + 2 * halo_px, area.height + 2 * halo_px};
+}
+
 }  // namespace
 
 cv::Mat CropWithHalo(const cv::Mat& image, cv::Rect area, int halo_px) {
-  const cv::Rect wanted(area.x - halo_px, area.y - halo_px, area.width + 2 * halo_px,
-                        area.height + 2 * halo_px);
+  const cv::Rect wanted = WithHalo(area, halo_px);
   if ((wanted & cv::Rect({}, image.size())) == wanted) return image(wanted).clone();
 
   cv::Mat cut(wanted.size(), image.type());
@@ -30,6 +35,12 @@ cv::Mat CropWithHalo(const cv::Mat& image, cv::Rect area, int halo_px) {
       std::copy_n(from + columns[x] * pixel_bytes, pixel_bytes, to);
   }
   return cut;
+}
+
+cv::Mat ResizedCropWithHalo(const cv::Mat& samples, cv::Size resized, cv::Rect area, int halo_px) {
+  // What the halo lacks on one side is reflected from less far into the picture than it reaches on the other.
+  const cv::Rect inside = WithHalo(area, halo_px) & cv::Rect({}, resized);
+  return CropWithHalo(ResizedPart(samples, resized, inside), area - inside.tl(), halo_px);
 }
 
 }  // namespace shimmer::sim

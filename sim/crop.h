@@ -9,4 +9,8 @@ namespace shimmer::sim {
 // the edge pixels (as often as it takes). area may be anywhere in the image.
 cv::Mat CropWithHalo(const cv::Mat& image, cv::Rect area, int halo_px);
 
+// The same of the picture resized, of which no more is computed than is shown. samples, resized, errors and
+// the result's type: resample.h.
+cv::Mat ResizedCropWithHalo(const cv::Mat& samples, cv::Size resized, cv::Rect area, int halo_px);
+
 }  // namespace shimmer::sim

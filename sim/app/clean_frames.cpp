@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "sim/colour.h"
@@ -34,7 +33,8 @@ bool OutputIsLinear(const Config& config) {
   return config.colour == sim::Colour::kLinear && config.output.format == Format::kExr;
 }
 
-CleanFrames::CleanFrames(const SourceList& sources, const Config& config, sim::ClipKey key)
+CleanFrames::CleanFrames(const SourceList& sources, dataset::PictureCache& pictures, const Config& config,
+                         sim::ClipKey key)
     : sources_(sources), config_(config), key_(key) {
   flip_ = config.source.flip && sim::DrawUnit(key, "source.flip") < 0.5;
   record_["flip"] = flip_;
@@ -48,7 +48,7 @@ CleanFrames::CleanFrames(const SourceList& sources, const Config& config, sim::C
   item_ = static_cast<size_t>(
       sim::DrawInteger(key, "source.item", 0, static_cast<int64_t>(sources.items().size()) - 1));
   record_.update(sources.Record(item_));
-  reader_ = sources.Open(item_);
+  reader_ = sources.Open(item_, pictures);
   if (const std::string remark = sources.Remark(item_); !remark.empty()) record_["remark"] = remark;
   if (still()) return;
 
@@ -81,11 +81,9 @@ cv::Mat CleanFrames::Prepare(const dataset::Picture& picture, int halo_px) {
   cv::Mat pixels = picture.pixels;
   if (reader_) {  // drawn scenes are drawn at their size, halo and all
     const double scale = FittingScale(pixels.size());
-    if (scale != 1)
-      cv::resize(pixels, pixels, Scaled(pixels.size(), scale), 0, 0,
-                 scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
-    const cv::Rect crop = ChooseCrop(pixels.size());
-    pixels = sim::CropWithHalo(pixels, crop, halo_px);
+    const cv::Size scaled = Scaled(pixels.size(), scale);
+    const cv::Rect crop = ChooseCrop(scaled);
+    pixels = sim::ResizedCropWithHalo(pixels, scaled, crop, halo_px);
     record_["scale"] = scale;
     record_["crop"] = {crop.x, crop.y, crop.width, crop.height};
     if (picture.alpha_dropped) record_["alpha_dropped"] = true;

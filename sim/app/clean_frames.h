@@ -24,12 +24,13 @@ class CleanFrames {
  public:
   // Chooses the source and the place in it by the clip's hash. Throws std::runtime_error if the source can't
   // be read or is too small or too short.
-  CleanFrames(const SourceList& sources, const Config& config, sim::ClipKey key);
+  CleanFrames(const SourceList& sources, dataset::PictureCache& pictures, const Config& config,
+              sim::ClipKey key);
 
   bool still() const;
 
   // Frame t (config.first_frame .. ) with halo_px more on each side than the clip, as the output's samples:
-  // CV_8U or CV_16U for PNG, CV_32F for EXR. A still is read once.
+  // CV_8U or CV_16U for PNG, CV_32F for EXR. A still is read once. Only what the frame shows is resized.
   cv::Mat Frame(int64_t t, int halo_px);
 
   // {"path", "sha256", "scale", "crop": [x, y, w, h], "flip", "start", ...}: what was chosen, for

@@ -51,9 +51,9 @@ ConfigFile LoadConfig(const std::filesystem::path& path, std::span<const std::st
 }
 
 Job Job::Load(const std::filesystem::path& config_path, std::span<const std::string> sets,
-              const std::filesystem::path& out) {
+              const std::filesystem::path& out, const std::atomic<bool>& stop) {
   ConfigFile config = LoadConfig(config_path, sets);
-  SourceList sources = SourceList::Find(config.fixed().source, config_path.parent_path(), out);
+  SourceList sources = SourceList::Find(config.fixed().source, config_path.parent_path(), out, stop);
   return {std::move(config), std::move(sources)};
 }
 

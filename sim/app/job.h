@@ -2,18 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 
 #include "sim/app/config/config.h"
 #include "sim/app/source_list.h"
+#include "sim/dataset/interrupted.h"
 #include "sim/dataset/layout.h"
+#include "sim/dataset/picture_cache.h"
 #include "sim/plan.h"
 
 namespace shimmer::app {
 
 // Grows by one whenever the pixels of an existing config change.
-inline constexpr int kEngine = 2;
+inline constexpr int kEngine = 3;
 inline constexpr const char* kVersion = "shimmer 0.1.0";
 
 // Throws ConfigError, or std::invalid_argument if the file can't be read.
@@ -24,14 +27,20 @@ ConfigFile LoadConfig(const std::filesystem::path& path, std::span<const std::st
 ConfigFile ConfigOfDataset(const std::filesystem::path& folder, const Json& description);
 dataset::Layout LayoutOfDataset(const std::filesystem::path& folder, const Json& description);
 
+// Of decoded pictures, unless told otherwise (PictureCache::SetBudget).
+inline constexpr uint64_t kPictureCacheBytes = 512 << 20;
+
 struct Job {
   ConfigFile config;
   SourceList sources;
+  std::unique_ptr<dataset::PictureCache> pictures =
+      std::make_unique<dataset::PictureCache>(kPictureCacheBytes);  // that sources are read through
 
-  // Reads the config file, applies the overrides, finds the sources (none below out, where clips go). Throws
-  // as LoadConfig, and ConfigError where a source pattern matches nothing.
+  // Reads the config file, applies the overrides, finds and hashes the sources (none below out, where clips
+  // go). Throws as LoadConfig, ConfigError where a source pattern matches nothing, and dataset::Interrupted
+  // once stop is set.
   static Job Load(const std::filesystem::path& config_path, std::span<const std::string> sets,
-                  const std::filesystem::path& out);
+                  const std::filesystem::path& out, const std::atomic<bool>& stop = dataset::kNeverStop);
 
   // What dataset.json says: config, its hash, sources with hashes, engine, version.
   Json Description() const;

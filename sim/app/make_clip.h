@@ -3,17 +3,14 @@
 
 #include <atomic>
 #include <functional>
-#include <stdexcept>
 
 #include "sim/app/job.h"
+#include "sim/dataset/interrupted.h"
 #include "sim/dataset/staged_clip.h"
 
 namespace shimmer::app {
 
-// The person has asked to stop.
-struct Interrupted : std::runtime_error {
-  Interrupted() : std::runtime_error("interrupted") {}
-};
+using dataset::Interrupted;
 
 // A function of (job, clip) alone: hands on each file as it is made, and fills in what the manifest says of
 // the clip (drawn values, origins, plan, source, tilt RMS, mean sigma). Throws std::runtime_error where the

@@ -2,6 +2,7 @@
 // dataset.json.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -11,6 +12,8 @@
 
 #include "sim/app/config/config.h"
 #include "sim/dataset/frame_reader.h"
+#include "sim/dataset/hash_memory.h"
+#include "sim/dataset/interrupted.h"
 #include "sim/dataset/sources.h"
 
 namespace shimmer::app {
@@ -20,9 +23,14 @@ enum class SourceKind { kImages, kVideo, kSequence, kDrawn };
 class SourceList {
  public:
   // Relative patterns are looked up below config_folder, then below the working directory. What lies below
-  // out, where clips go, is no source. Throws ConfigError where nothing matches.
+  // out, where clips go, is no source. Files are hashed on all threads, but for those that out remembers from
+  // an earlier run. Throws ConfigError where nothing matches, dataset::Interrupted once stop is set.
   static SourceList Find(const SourceParams& source, const std::filesystem::path& config_folder,
-                         const std::filesystem::path& out);
+                         const std::filesystem::path& out,
+                         const std::atomic<bool>& stop = dataset::kNeverStop);
+
+  // Remembers the hashes in out, once it is a data set's folder, for the next run. Once.
+  void Remember(const std::filesystem::path& out);
 
   SourceKind kind() const { return kind_; }
   bool still() const { return kind_ == SourceKind::kImages || kind_ == SourceKind::kDrawn; }
@@ -34,8 +42,9 @@ class SourceList {
   const Json& Record(size_t item) const { return records_.at(item); }
   const Json& Records() const { return records_; }  // an array, in the order of items()
 
-  // Throws std::runtime_error. A video's frames are counted once, by decoding it, for all clips that use it.
-  std::unique_ptr<dataset::FrameReader> Open(size_t item) const;
+  // Pictures are read through the cache, which must outlive the reader. Throws std::runtime_error. A video's
+  // frames are counted once, by decoding it, for all clips that use it.
+  std::unique_ptr<dataset::FrameReader> Open(size_t item, dataset::PictureCache& pictures) const;
 
   // What is odd about a video that has been opened; empty if nothing.
   std::string Remark(size_t item) const;
@@ -53,6 +62,7 @@ class SourceList {
   SourceKind kind_ = SourceKind::kDrawn;
   std::vector<std::filesystem::path> items_;
   Json records_ = Json::array();
+  std::shared_ptr<dataset::HashMemory> hashes_;  // until they are remembered
   std::shared_ptr<KnownVideos> videos_ = std::make_shared<KnownVideos>();
 };
 

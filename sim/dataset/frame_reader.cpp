@@ -13,18 +13,18 @@ namespace fs = std::filesystem;
 
 class PictureFiles : public FrameReader {
  public:
-  explicit PictureFiles(std::vector<fs::path> files) : files_(std::move(files)) {}
+  PictureFiles(std::vector<fs::path> files, PictureCache* cache) : files_(std::move(files)), cache_(cache) {}
 
   int64_t count() override { return static_cast<int64_t>(files_.size()); }
 
   Picture Read(int64_t frame) override {
     RequireFrame(frame, count());
-    Picture picture = ReadImage(files_[frame]);
+    Picture picture = cache_ ? *cache_->Read(files_[frame]) : ReadSamples(files_[frame]);
     if (first_.empty()) {
       first_ = picture.pixels.size();
-      first_type_ = picture.pixels.type();
+      first_channels_ = picture.pixels.channels();
       first_file_ = files_[frame];
-    } else if (picture.pixels.size() != first_ || picture.pixels.type() != first_type_) {
+    } else if (picture.pixels.size() != first_ || picture.pixels.channels() != first_channels_) {
       throw std::runtime_error(files_[frame].string() + ": another size or number of channels than " +
                                first_file_.string());
     }
@@ -33,8 +33,9 @@ class PictureFiles : public FrameReader {
 
  private:
   std::vector<fs::path> files_;
+  PictureCache* cache_;
   cv::Size first_;
-  int first_type_ = 0;
+  int first_channels_ = 0;
   fs::path first_file_;
 };
 
@@ -46,13 +47,13 @@ void FrameReader::RequireFrame(int64_t frame, int64_t count) {
                                 std::to_string(count - 1) + "]");
 }
 
-std::unique_ptr<FrameReader> OpenStill(const fs::path& path) {
+std::unique_ptr<FrameReader> OpenStill(const fs::path& path, PictureCache* cache) {
   RequireFile(path);
-  return std::make_unique<PictureFiles>(std::vector<fs::path>{path});
+  return std::make_unique<PictureFiles>(std::vector<fs::path>{path}, cache);
 }
 
-std::unique_ptr<FrameReader> OpenSequence(const fs::path& sequence) {
-  return std::make_unique<PictureFiles>(SequenceFiles(sequence));
+std::unique_ptr<FrameReader> OpenSequence(const fs::path& sequence, PictureCache* cache) {
+  return std::make_unique<PictureFiles>(SequenceFiles(sequence), cache);
 }
 
 }  // namespace shimmer::dataset

@@ -1,4 +1,5 @@
-// Pictures on disk and in memory. In memory: cv::Mat, float32, grey or RGB, [y][x][channel].
+// Pictures on disk and in memory. In memory: cv::Mat, float32 or a file's own samples, grey or RGB,
+// [y][x][channel].
 //
 // Errors: std::runtime_error "PATH: what is wrong" for a file, std::invalid_argument for a wrong argument.
 // OpenImageIO's own threads are switched off for the whole process by the first call: callers run one clip a
@@ -21,7 +22,7 @@ inline constexpr float kMaxSample = 65504.f;  // largest half
 // -----------------------------------------------------------------------------------------------------
 
 struct Picture {
-  cv::Mat pixels;              // CV_32FC1 or CV_32FC3 (RGB), upright (a camera's orientation tag is obeyed)
+  cv::Mat pixels;              // of 1 or 3 (RGB) channels, upright (a camera's orientation tag is obeyed)
   bool linear = false;         // values are linear light: EXR and other float formats
   bool alpha_dropped = false;  // the file has an alpha channel, which is not in pixels
   int64_t replaced =
@@ -32,9 +33,13 @@ struct Picture {
 // changed, colour not multiplied by alpha). Integers are scaled to [0, 1]: 8 bits v / 255.f, 16 bits v /
 // 65535.f. One channel (or one and alpha) is grey, R, G and B by name or else the first three of three or
 // more are RGB. Refused: no file, not a picture, cut off or otherwise damaged, two channels without alpha,
-// over kMaxSide_px. bytes, where not empty: the file's, read already (of a file in a tar); path then only
-// names it.
+// over kMaxSide_px. Its pixels are CV_32F. bytes, where not empty: the file's, read already (of a file in a
+// tar); path then only names it.
 Picture ReadImage(const std::filesystem::path& path, std::span<const uint8_t> bytes = {});
+
+// The same, its pixels the file's own samples: CV_8U, CV_16U, or CV_32F for any other kind of number.
+// FromSamples makes ReadImage's of them.
+Picture ReadSamples(const std::filesystem::path& path, std::span<const uint8_t> bytes = {});
 
 // The named channels of a float file, in the order of the names, CV_32FC(n). Values as they are, NaN too.
 // Empty if one of them is not in the file.

@@ -9,6 +9,7 @@
 
 #include "sim/dataset/files.h"
 #include "sim/dataset/image_io.h"
+#include "sim/dataset/mapped_memory.h"
 #include "sim/dataset/oiio_setup.h"
 #include "sim/dataset/png_check.h"
 
@@ -75,6 +76,13 @@ std::vector<int> ColourChannels(const fs::path& path, const OIIO::ImageSpec& spe
   return colours;
 }
 
+cv::Mat NewPicture(int rows, int cols, int type) {
+  cv::Mat picture;
+  picture.allocator = MappedMemory();
+  picture.create(rows, cols, type);
+  return picture;
+}
+
 // The picked channels as the file holds them: CV_8U, CV_16U, or CV_32F for any other kind of number.
 cv::Mat ReadPicked(const fs::path& path, OIIO::ImageInput& input, const std::vector<int>& picked) {
   const OIIO::ImageSpec& spec = input.spec();
@@ -86,14 +94,14 @@ cv::Mat ReadPicked(const fs::path& path, OIIO::ImageInput& input, const std::vec
     type = spec.format;
   const int depth = type == OIIO::TypeUInt8 ? CV_8U : type == OIIO::TypeUInt16 ? CV_16U : CV_32F;
   try {
-    cv::Mat all(spec.height, spec.width, CV_MAKETYPE(depth, channels));
+    const cv::Mat all = NewPicture(spec.height, spec.width, CV_MAKETYPE(depth, channels));
     const bool read = input.read_image(0, 0, first, last + 1, type, all.data);
     // JPEG: a file that is cut off reads as grey and leaves only a message.
     const std::string message = input.geterror();
     if (!read || !message.empty())
       Fail(path, "damaged picture (" + (message.empty() ? "cut off" : message) + ")");
     if (channels == static_cast<int>(picked.size()) && std::ranges::is_sorted(picked)) return all;
-    cv::Mat chosen(all.size(), CV_MAKETYPE(depth, static_cast<int>(picked.size())));
+    cv::Mat chosen = NewPicture(all.rows, all.cols, CV_MAKETYPE(depth, static_cast<int>(picked.size())));
     std::vector<int> from_to;
     for (size_t i = 0; i < picked.size(); ++i)
       from_to.insert(from_to.end(), {picked[i] - first, static_cast<int>(i)});
@@ -164,16 +172,22 @@ const std::vector<std::string>& PictureExtensions() {
   return extensions;
 }
 
-Picture ReadImage(const fs::path& path, std::span<const uint8_t> bytes) {
+Picture ReadSamples(const fs::path& path, std::span<const uint8_t> bytes) {
   const Input input = Open(path, bytes);
   const OIIO::ImageSpec& spec = input->spec();
   const std::vector<int> picked = ColourChannels(path, spec);
   Picture picture;
-  picture.pixels = FromSamples(ReadPicked(path, *input, picked));
-  picture.replaced = ReplaceNonFinite(picture.pixels);
+  picture.pixels = ReadPicked(path, *input, picked);
+  if (picture.pixels.depth() == CV_32F) picture.replaced = ReplaceNonFinite(picture.pixels);
   picture.pixels = Upright(picture.pixels, spec.get_int_attribute("Orientation", 1));
   picture.linear = spec.format.is_floating_point() || input->format_name() == std::string("openexr");
   picture.alpha_dropped = spec.alpha_channel >= 0 && std::ranges::count(picked, spec.alpha_channel) == 0;
+  return picture;
+}
+
+Picture ReadImage(const fs::path& path, std::span<const uint8_t> bytes) {
+  Picture picture = ReadSamples(path, bytes);
+  if (picture.pixels.depth() != CV_32F) picture.pixels = FromSamples(picture.pixels);
   return picture;
 }
 

@@ -56,7 +56,7 @@ class Video : public FrameReader {
       throw std::runtime_error(path_.string() + ": frame " + std::to_string(frame) + " can't be decoded");
     cv::Mat rgb(bgr.size(), CV_8UC3);
     cv::mixChannels({bgr}, {rgb}, {0, 2, 1, 1, 2, 0});
-    return {.pixels = FromSamples(rgb)};
+    return {.pixels = rgb};
   }
 
   std::string remark() const override { return remark_; }

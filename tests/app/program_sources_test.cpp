@@ -17,7 +17,8 @@ Json StillAir(Json config) {
 
 cv::Mat Quantised(const cv::Mat& image) { return dataset::Quantise(image, {dataset::FileFormat::kPng, 8}); }
 
-// The clean frame, from the picture and what the manifest says was chosen of it.
+// The clean frame, from the picture and what the manifest says was chosen of it. By OpenCV, which leaves out
+// what a pixel covers of another below 1/1000: now and then a level comes out as its neighbour.
 cv::Mat Chosen(const cv::Mat& picture, const Json& source) {
   cv::Mat chosen = picture;
   const double scale = source.at("scale");
@@ -48,7 +49,9 @@ TEST(Sources, PlaceScaleAndFlipAreNotedAndReproducible) {
   for (const int64_t clip : reader.clips()) {
     const Json line = reader.Line(clip), source = line.at("source");
     const cv::Mat picture = dataset::ReadImage(folder / source.at("path").get<std::string>()).pixels;
-    EXPECT_EQ(cv::norm(reader.Clean(clip, 1).pixels, Chosen(picture, source), cv::NORM_INF), 0) << clip;
+    const cv::Mat difference = reader.Clean(clip, 1).pixels - Chosen(picture, source);
+    EXPECT_LT(cv::norm(difference, cv::NORM_INF), 1.01 / 255) << clip;
+    EXPECT_LE(cv::countNonZero(difference.reshape(1)), 24 * 16 * 3 / 100) << clip;
     // Nothing was done to it: the pair is equal.
     EXPECT_EQ(cv::norm(reader.Clean(clip, 1).pixels, reader.Turb(clip, 1).pixels, cv::NORM_INF), 0);
     EXPECT_EQ(line.at("drawn").at("source.scale"), source.at("scale"));

@@ -12,7 +12,7 @@ TEST(FrameReader, AStill) {
   const cv::Mat image = RandomImage({5, 4}, 3, 1);
   const auto reader = OpenStill(folder.Put("x.png", EncodePng(image, 8)));
   EXPECT_EQ(reader->count(), 1);
-  EXPECT_TRUE(SameBits(reader->Read(0).pixels, Quantise(image, {})));
+  EXPECT_TRUE(SameBits(reader->Read(0).pixels, ToSamples(image, {})));
   EXPECT_THROW(reader->Read(1), std::invalid_argument);
   EXPECT_THROW(reader->Read(-1), std::invalid_argument);
   EXPECT_THROW(OpenStill(folder / "no.png"), std::runtime_error);
@@ -29,9 +29,31 @@ TEST(FrameReader, ASequence) {
     const auto reader = OpenSequence(sequence);
     ASSERT_EQ(reader->count(), 3);
     for (const int i : {2, 0, 1})
-      EXPECT_TRUE(SameBits(reader->Read(i).pixels, Quantise(frames[i], {FileFormat::kPng, 16}))) << i;
+      EXPECT_TRUE(SameBits(reader->Read(i).pixels, ToSamples(frames[i], {FileFormat::kPng, 16}))) << i;
     EXPECT_THROW(reader->Read(3), std::invalid_argument);
   }
+}
+
+TEST(FrameReader, ReadsThroughACache) {
+  const TempFolder folder;
+  for (int i = 0; i < 3; ++i) folder.Put(std::to_string(i) + ".png", EncodePng(RandomImage({5, 4}, 3, i), 8));
+  PictureCache cache(1 << 20);
+  for (int run = 0; run < 2; ++run) {
+    EXPECT_TRUE(SameBits(OpenStill(folder / "1.png", &cache)->Read(0).pixels,
+                         OpenSequence(folder.path(), &cache)->Read(1).pixels));
+    EXPECT_THROW(OpenStill(folder / "no.png", &cache), std::runtime_error);
+  }
+  EXPECT_EQ(cache.statistics().misses, 1);
+  EXPECT_EQ(cache.statistics().hits, 3);
+}
+
+TEST(FrameReader, FramesOfASequenceMayHaveOtherBits) {
+  const TempFolder folder;
+  folder.Put("0.png", EncodePng(RandomImage({5, 4}, 3, 1), 8));
+  folder.Put("1.png", EncodePng(RandomImage({5, 4}, 3, 1), 16));
+  const auto reader = OpenSequence(folder.path());
+  EXPECT_EQ(reader->Read(0).pixels.type(), CV_8UC3);
+  EXPECT_EQ(reader->Read(1).pixels.type(), CV_16UC3);
 }
 
 TEST(FrameReader, FramesOfASequenceThatDontFit) {
@@ -68,10 +90,10 @@ class VideoFile : public ::testing::Test {
   }
 
   static void ExpectFrame(const Picture& picture, int t) {
-    ASSERT_EQ(picture.pixels.type(), CV_32FC3);
+    ASSERT_EQ(picture.pixels.type(), CV_8UC3);
     EXPECT_EQ(picture.pixels.size(), cv::Size(48, 32));
     EXPECT_FALSE(picture.linear);
-    const cv::Scalar mean = cv::mean(picture.pixels) * 255;
+    const cv::Scalar mean = cv::mean(picture.pixels);
     // JPEG of one colour: rounding to 8 bits in two colour spaces, and frames are 20 levels apart.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], Colour(t)[c], 4) << "frame " << t << ", channel " << c;
   }

@@ -41,7 +41,31 @@ TEST(ImageIo, ReadingGivesBackTheQuantisedPicture) {
         EXPECT_EQ(back.linear, encoding.format == FileFormat::kExr);
         EXPECT_FALSE(back.alpha_dropped);
         EXPECT_EQ(back.replaced, 0);
+        // As samples it is what the file holds; halves are read as floats.
+        const cv::Mat samples = ReadSamples(path).pixels;
+        EXPECT_TRUE(SameBits(samples,
+                             encoding.format == FileFormat::kPng ? ToSamples(image, encoding) : back.pixels));
       }
+}
+
+// Whose memory is mapped: it stays with every header that points to it, and a matrix made anew on such a
+// header.
+TEST(ImageIo, LargePictures) {
+  const TempFolder folder;
+  const cv::Mat image = RandomImage({700, 600}, 3, 1), samples = ToSamples(image, {});
+  OIIO::ImageSpec spec(600, 700, 3, OIIO::TypeUInt8);
+  spec["Orientation"] = 5;  // rows and columns swapped
+  const auto path = PutWithOiio(folder, "turned.tif", spec, cv::Mat(samples.t()).data);
+  cv::Mat part;
+  {
+    Picture picture = ReadSamples(path);
+    EXPECT_TRUE(SameBits(picture.pixels, samples));
+    part = picture.pixels({100, 200, 300, 50});
+    picture.pixels.create(900, 800, CV_8UC3);
+    picture.pixels.setTo(7);
+    picture.pixels.create(3, 2, CV_8U);
+  }
+  EXPECT_TRUE(SameBits(part, samples({100, 200, 300, 50})));
 }
 
 TEST(ImageIo, EveryLevelComesBackAndQuantisingTwiceIsOnce) {
