@@ -137,13 +137,15 @@ std::string BytesText(double bytes) {
 }
 
 int DryRun(const GenerateOptions& options, const std::atomic<bool>& stop) {
-  const Job job = Job::Load(options.config, options.sets, options.out);
+  const Job job = Job::Load(options.config, options.sets, options.out, stop);
   const Config& fixed = job.config.fixed();
   const dataset::Layout layout = job.Layout();
   const dataset::Manifest there = ManifestOfTarget(options.out, job.Description());
   const std::vector<int64_t> pending =
       dataset::PendingClips(layout, options.WantedOf(fixed.clips), there.done(), there.failed());
   const FreeSpace free = FreeSpaceAt(options.out);
+  job.pictures->SetBudget(
+      static_cast<uint64_t>(PlanMemory(options.memory_bytes, job.config, 1).sources_bytes));
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const Samples samples = MakeSamples(job, pending, threads, free.block_bytes, stop);
   if (stop) return kExitInterrupted;

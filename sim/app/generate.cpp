@@ -72,21 +72,22 @@ dataset::Wanted GenerateOptions::WantedOf(int64_t clips) const {
   return {.clips = clips, .shard = shard, .retry_failed = retry_failed, .only = only_clips};
 }
 
-int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
-  if (options.out.empty()) throw std::invalid_argument("--out: is empty, must be a folder");
-  options.shard.Validate();
-  if (options.dry_run) return DryRun(options, stop);
-  const Job job = Job::Load(options.config, options.sets, options.out);
+namespace {
+
+int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& stop) {
+  Job job = Job::Load(options.config, options.sets, options.out, stop);
   const int64_t clips = job.config.fixed().clips;
   const dataset::Wanted wanted = options.WantedOf(clips);
   const auto start = std::chrono::steady_clock::now();
   const std::unique_ptr<dataset::DatasetWriter> writer = OpenFolder(options, job, stop);
   if (!writer) return kExitInterrupted;
+  job.sources.Remember(options.out);
   const std::vector<int64_t> pending =
       dataset::PendingClips(writer->layout(), wanted, writer->done(), writer->failed());
 
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const MemoryPlan memory = PlanMemory(options.memory_bytes, job.config, threads);
+  job.pictures->SetBudget(static_cast<uint64_t>(memory.sources_bytes));
   const int64_t own = CountClips(*writer, clips, options.shard).clips;
   Progress progress(own, own - static_cast<int64_t>(pending.size()), options.quiet);
   std::string first_error;
@@ -125,6 +126,18 @@ int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
                  (options.out / "manifest.jsonl").c_str(), static_cast<long long>(count.failed),
                  first_error.empty() ? "all in an earlier run" : ("the first with: " + first_error).c_str());
   return count.failed > 0 ? kExitFailed : kExitDone;
+}
+
+}  // namespace
+
+int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
+  if (options.out.empty()) throw std::invalid_argument("--out: is empty, must be a folder");
+  options.shard.Validate();
+  try {
+    return options.dry_run ? DryRun(options, stop) : MakeMissingClips(options, stop);
+  } catch (const dataset::Interrupted&) {
+    return kExitInterrupted;
+  }
 }
 
 }  // namespace shimmer::app

@@ -1,5 +1,7 @@
 #include "sim/dataset/dataset_folder.h"
 
+#include <unistd.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -33,6 +35,17 @@ void MakeDatasetFolder(const fs::path& folder) {
   RefuseForeignFolder(folder);
 }
 
+void WriteDatasetFile(const fs::path& folder, const std::string& name, std::span<const uint8_t> bytes) {
+  // Named by the process too: shards may do this at the same moment.
+  const fs::path to = folder / name, staging = folder / kStagingName,
+                 beside = staging / (to.filename().string() + "." + std::to_string(getpid()));
+  MakeFolders(to.parent_path());
+  MakeFolders(staging);
+  WriteFileAtomically(to, bytes, beside);
+  std::error_code not_empty;
+  fs::remove(staging, not_empty);
+}
+
 Json ReadDescription(const fs::path& folder) {
   const fs::path path = folder / kDescriptionName;
   if (!fs::exists(path))
@@ -44,7 +57,7 @@ Json ReadDescription(const fs::path& folder) {
   return description;
 }
 
-void WriteDescription(const fs::path& folder, const fs::path& staging, const Json& description) {
+void WriteDescription(const fs::path& folder, const Json& description) {
   if (fs::exists(folder / kDescriptionName)) {
     const Json there = ReadDescription(folder);
     const std::vector<std::string> differences = Differences(there, description);
@@ -54,8 +67,7 @@ void WriteDescription(const fs::path& folder, const fs::path& staging, const Jso
     if (there == description) return;
   }
   const std::string text = description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  MakeFolders(staging);
-  WriteFileAtomically(folder / kDescriptionName, AsBytes(text), staging / kDescriptionName);
+  WriteDatasetFile(folder, kDescriptionName, AsBytes(text));
 }
 
 }  // namespace shimmer::dataset

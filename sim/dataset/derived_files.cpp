@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/files.h"
 #include "sim/dataset/numbered_name.h"
 #include "sim/dataset/restormer_options.h"
@@ -110,7 +111,7 @@ std::map<std::string, std::string> DerivedFiles(const DatasetReader& set, const 
 
 void WriteDerivedFiles(const DatasetReader& set, const Layout& layout) {
   for (const auto& [path, text] : DerivedFiles(set, layout))
-    if (!Says(set.folder() / path, text)) WriteFileAtomically(set.folder() / path, AsBytes(text));
+    if (!Says(set.folder() / path, text)) WriteDatasetFile(set.folder(), path, AsBytes(text));
 }
 
 }  // namespace shimmer::dataset

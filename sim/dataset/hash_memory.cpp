@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/files.h"
 #include "sim/dataset/interrupted.h"
 #include "sim/dataset/sha256.h"
@@ -98,7 +99,7 @@ void HashMemory::Write(const fs::path& folder) const {
   if (hash == hash_of_known_) return;
   const Json last = {{kHashOfLines, hash}};
   try {
-    WriteFileAtomically(folder / kHashMemoryName, AsBytes(lines + last.dump() + "\n"));
+    WriteDatasetFile(folder, kHashMemoryName, AsBytes(lines + last.dump() + "\n"));
   } catch (const std::runtime_error&) {
     // the next run reads the sources again
   }

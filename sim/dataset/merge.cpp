@@ -48,7 +48,8 @@ void UniteManifests(const fs::path& folder) {
   const FolderLock lock(folder, {});
   const std::vector<fs::path> manifests = ManifestsIn(folder);
   {
-    const fs::path beside = folder / (std::string(kManifestName) + ".new");
+    const fs::path beside = folder / kStagingName / kManifestName;
+    MakeFolders(beside.parent_path());
     const Manifest all(manifests);
     RemoveAll(beside);
     {
@@ -68,6 +69,7 @@ void UniteManifests(const fs::path& folder) {
     SyncFolder(folder);
     for (size_t i = 1; i < manifests.size(); ++i) RemoveAll(manifests[i]);
   }
+  RemoveAll(folder / kStagingName);
   for (const char* of_shards : {kLockName, kStagingName})
     for (const fs::path& left : ExpandGlob(folder, std::string(of_shards) + ".*-of-*")) RemoveAll(left);
   SyncFolder(folder);
