@@ -39,8 +39,8 @@ void WriteDatasetFile(const fs::path& folder, const std::string& name, std::span
   // Named by the process too: shards may do this at the same moment.
   const fs::path to = folder / name, staging = folder / kStagingName,
                  beside = staging / (to.filename().string() + "." + std::to_string(getpid()));
-  MakeFolders(to.parent_path());
-  MakeFolders(staging);
+  std::error_code no_folder;  // which writing tells
+  fs::create_directory(staging, no_folder);
   WriteFileAtomically(to, bytes, beside);
   std::error_code not_empty;
   fs::remove(staging, not_empty);
