@@ -112,6 +112,22 @@ TEST_F(Programs, BadArgumentsAreRefusedInALine) {
   EXPECT_EQ(Run(SHIMMER_BENCH_ACCURACY, "--quick --out no/such/folder").exit_code, 1);
 }
 
+TEST_F(Programs, GenerateMeasuresEveryCase) {
+  const cv::Mat photograph(400, 500, CV_8UC3, cv::Scalar(10, 200, 90));
+  ASSERT_TRUE(cv::imwrite((folder_ / "photo.png").string(), photograph));
+  const Ran ran = Run(SHIMMER_BENCH_GENERATE, "--quick --pictures '" + (folder_ / "photo.png").string() +
+                                                  "' --out '" + folder_.string() + "' --json generate.json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.text;
+  const Json json = Read("generate.json");
+  ASSERT_EQ(json.size(), 8u);
+  for (const Json& row : json) {
+    EXPECT_GT(row["clips_per_s"], 0) << row;
+    EXPECT_GT(row["cpu_s_per_clip"], 0) << row;
+    EXPECT_GT(row["MB_per_clip"], 0) << row;
+  }
+  EXPECT_EQ(Run(SHIMMER_BENCH_GENERATE, "--quick --pictures nowhere.png").exit_code, 1);
+}
+
 class AccuracyProgram : public Programs {
  protected:
   void SetUp() override {

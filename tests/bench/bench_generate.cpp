@@ -1,0 +1,188 @@
+// Whole data sets by the program itself: clips a second once its sources are decoded, memory, and what truth,
+// layouts and the general PNG writer cost; beside it the authors' method with OpenCV's PNG writer, on the
+// same photographs.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/bench/authors_method.h"
+#include "tests/bench/program_run.h"
+#include "tests/bench/table.h"
+
+namespace shimmer::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+struct Options {
+  std::vector<std::string> pictures = {"/usr/share/backgrounds/Picture_1A_by_freespace.jpg",
+                                       "/usr/share/backgrounds/life_by_Aitzol_Berasategi.jpg",
+                                       "/usr/share/wallpapers/BytheWater/contents/images/2560x1600.jpg",
+                                       "/usr/share/wallpapers/ColorfulCups/contents/images/2560x1600.jpg",
+                                       "/usr/share/wallpapers/Path/contents/images/2560x1600.jpg"};
+  fs::path out = fs::temp_directory_path();
+  std::string only, json;
+  bool quick = false;
+};
+
+struct Case {
+  const char* name;
+  int side_px;
+  int clips, warm_up;  // the clock starts once so many are done: every source is decoded by then
+  Json output;         // section output of the config
+};
+
+const std::vector<Case> kCases = {
+    {"256x256", 256, 1200, 200, Json::object()},
+    {"256x256, truth", 256, 300, 100, {{"truth", {"tilt", "sigma"}}}},
+    {"256x256, webdataset", 256, 1200, 200, {{"layout", "webdataset"}}},
+    {"256x256, png_writer openimageio", 256, 400, 100, {{"png_writer", "openimageio"}}},
+    {"1024x1024", 1024, 100, 40, Json::object()},
+    {"1024x1024, truth", 1024, 60, 30, {{"truth", {"tilt", "sigma"}}}},
+};
+
+constexpr int kFrames = 16, kQuickFrames = 2;
+
+// The training config of docs/formats.md.
+Json ConfigOf(const Case& one, const Options& options) {
+  return {{"seed", 7},
+          {"clips", options.quick ? 4 : one.clips},
+          {"frames", options.quick ? kQuickFrames : kFrames},
+          {"size", options.quick ? Json{48, 48} : Json{one.side_px, one.side_px}},
+          {"source",
+           {{"images", options.pictures},
+            {"scale", {{"uniform", {0.5, 1}}}},
+            {"crop", "random"},
+            {"flip", true}}},
+          {"tilt",
+           {{"strength_px", {{"uniform", {1, 10}}}},
+            {"base_frequency", {{"uniform", {0.015, 0.06}}}},
+            {"temporal_scale", {{"uniform", {0.5, 4}}}}}},
+          {"blur", {{"max_sigma_px", {{"uniform", {0.5, 6}}}}}},
+          {"output", one.output}};
+}
+
+// A folder that is gone afterwards.
+class Scratch {
+ public:
+  explicit Scratch(const fs::path& parent) : path_(parent / ("bench_generate_" + std::to_string(getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Json RunCase(const Case& one, const Options& options) {
+  const Scratch scratch(options.out);
+  const fs::path config = scratch.path() / "config.json", set = scratch.path() / "set";
+  std::ofstream(config) << ConfigOf(one, options);
+  const int warm_up = options.quick ? 1 : one.warm_up, clips = options.quick ? 4 : one.clips;
+  int64_t lines = 0, first_lines = 0;
+  double first_s = 0, last_s = 0;
+  double early_MB = 0, late_MB = 0;
+  const ProgramRun run = RunProgram({SHIMMER_PROGRAM, "generate", config, "--out", set, "--quiet"},
+                                    [&](double seconds, double resident_MB) {
+                                      const int64_t now = LinesOf(set / "manifest.jsonl");
+                                      if (now == lines) return;
+                                      lines = now, last_s = seconds;
+                                      if (now >= warm_up && first_lines == 0)
+                                        first_lines = now, first_s = seconds, early_MB = resident_MB;
+                                      late_MB = resident_MB;
+                                    });
+  const int64_t done = LinesOf(set / "manifest.jsonl");
+  if (done != clips) throw std::runtime_error(std::string(one.name) + ": not every clip was made");
+  uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(set))
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  const double rate = last_s > first_s && lines > first_lines
+                          ? static_cast<double>(lines - first_lines) / (last_s - first_s)
+                          : clips / run.wall_s;
+  return {{"name", one.name},
+          {"clips_per_s", rate},
+          {"cpu_s_per_clip", run.cpu_s / clips},
+          {"MB_per_clip", static_cast<double>(bytes) / 1e6 / clips},
+          {"peak_MB", run.peak_MB},
+          {"early_MB", early_MB},
+          {"late_MB", late_MB}};
+}
+
+// One clip on one core, the pictures decoded before the clock starts.
+Json RunAuthors(int side_px, const Options& options) {
+  cv::Mat picture;
+  for (const std::string& name : options.pictures)
+    if (picture.empty()) picture = cv::imread(name);
+  if (picture.empty()) throw std::runtime_error(options.pictures[0] + " is not a picture that can be read");
+  const int frames = options.quick ? kQuickFrames : kFrames, side = options.quick ? 48 : side_px;
+  cv::Mat clean;
+  cv::resize(picture, clean, {side, side}, 0, 0, cv::INTER_AREA);
+  sim::Scene scene;
+  scene.tilt.strength_px = 5, scene.blur.max_sigma_px = 3.25;
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<uchar> file;
+  size_t bytes = 0;
+  const AuthorsMethod method(scene, clean.size(), frames, AuthorsMode::kFast);
+  for (const cv::Mat& frame : method.RenderClip(clean)) {
+    cv::imencode(".png", frame, file);
+    bytes += file.size();
+  }
+  cv::imencode(".png", clean, file);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {{"name", "the authors' method, one core, " + SizeText({side, side})},
+          {"clips_per_s", 1 / seconds},
+          {"cpu_s_per_clip", seconds},
+          {"MB_per_clip", static_cast<double>(bytes + file.size()) / 1e6}};
+}
+
+void Run(const Options& options) {
+  Json rows = Json::array();
+  for (const Case& one : kCases)
+    if (options.only.empty() || options.only == one.name) rows.push_back(RunCase(one, options));
+  if (options.only.empty())
+    for (const int side_px : {256, 1024}) rows.push_back(RunAuthors(side_px, options));
+  Table table({"16-frame clips", "clips/s", "CPU s/clip", "MB/clip", "peak MB"});
+  for (const Json& row : rows)
+    table.Add({row.at("name"), Significant(row.at("clips_per_s"), 3),
+               Significant(row.at("cpu_s_per_clip"), 3), Significant(row.at("MB_per_clip"), 3),
+               row.contains("peak_MB") ? Number(row.at("peak_MB"), 0) : "-"});
+  table.Print();
+  if (!options.json.empty() && !(std::ofstream(options.json) << rows.dump(2) << std::endl))
+    throw std::runtime_error(options.json + " can't be written");
+}
+
+}  // namespace
+}  // namespace shimmer::bench
+
+int main(int argc, char** argv) {
+  using namespace shimmer::bench;
+  CLI::App app("Whole data sets by the program: clips a second, memory, size");
+  Options options;
+  std::vector<std::string> names;
+  for (const Case& one : kCases) names.push_back(one.name);
+  app.add_option("--pictures", options.pictures, "photographs (default: five of scripts/setup.sh --photos)");
+  app.add_option("--out", options.out, "folder to write in, emptied afterwards (default: the temporary one)");
+  app.add_option("--only", options.only, "one case")->check(CLI::IsMember(names));
+  app.add_option("--json", options.json, "write all figures to this file");
+  app.add_flag("--quick", options.quick, "tiny clips: does it work at all?");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    cv::setNumThreads(1);
+    Run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_generate: %s\n", error.what());
+    return 1;
+  }
+}

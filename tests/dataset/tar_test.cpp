@@ -1,0 +1,84 @@
+#include "sim/dataset/tar.h"
+
+#include "tests/dataset/temp_folder.h"
+
+namespace shimmer::dataset {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sizes at the edges of a tar's blocks of 512 bytes.
+const std::vector<size_t> kSizes = {0, 1, 511, 512, 513, 100'000};
+
+std::vector<TarMember> Members(const TempFolder& folder) {
+  std::vector<TarMember> members;
+  for (const size_t size : kSizes) {
+    const std::string name = "000001.turb." + std::to_string(size) + ".png";
+    std::string text;
+    for (size_t i = 0; i < size; ++i) text += static_cast<char>('a' + (i + size) % 23);
+    members.push_back({name, folder.Put("in/" + name, text), static_cast<int64_t>(size)});
+  }
+  return members;
+}
+
+TEST(Tar, MembersLieWhereItSaysTheyDo) {
+  const TempFolder folder;
+  const std::vector<TarMember> members = Members(folder);
+  const fs::path tar = folder / "a.tar";
+  const std::vector<int64_t> offsets = WriteTar(tar, members);
+  const std::vector<TarEntry> entries = TarEntries(tar);
+  ASSERT_EQ(entries.size(), members.size());
+  int64_t bytes = 0;
+  for (size_t i = 0; i < members.size(); ++i) {
+    EXPECT_EQ(entries[i].name, members[i].name);
+    EXPECT_EQ(entries[i].offset, offsets[i]);
+    EXPECT_EQ(entries[i].bytes, members[i].bytes);
+    EXPECT_EQ(ReadPart(tar, static_cast<uint64_t>(offsets[i]), static_cast<size_t>(members[i].bytes)),
+              ReadFile(members[i].place));
+    bytes += TarBytes(members[i].bytes);
+  }
+  EXPECT_GE(fs::file_size(tar), static_cast<uintmax_t>(bytes));
+  EXPECT_LE(fs::file_size(tar), static_cast<uintmax_t>(bytes + kTarEndBytes));
+}
+
+TEST(Tar, TheSameMembersGiveTheSameBytes) {
+  const TempFolder folder;
+  const std::vector<TarMember> members = Members(folder);
+  WriteTar(folder / "a.tar", members);
+  for (const TarMember& member : members)  // dates and rights of the files are not the tar's
+    fs::permissions(member.place, fs::perms::owner_read | fs::perms::owner_write);
+  WriteTar(folder / "b.tar", members);
+  EXPECT_EQ(ReadFile(folder / "a.tar"), ReadFile(folder / "b.tar"));
+}
+
+// As GNU tar sees it, where there is one.
+TEST(Tar, IsReadByTar) {
+  const TempFolder folder;
+  WriteTar(folder / "a.tar", Members(folder));
+  fs::create_directory(folder / "out");
+  const std::string command =
+      "tar -xf '" + (folder / "a.tar").string() + "' -C '" + (folder / "out").string() + "'";
+  if (std::system("tar --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no tar on this machine";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  for (const TarMember& member : Members(folder))
+    EXPECT_EQ(ReadFile(folder / ("out/" + member.name)), ReadFile(member.place));
+}
+
+TEST(Tar, WhatIsWrong) {
+  const TempFolder folder;
+  const std::vector<TarMember> members = Members(folder);
+  EXPECT_THROW(WriteTar(folder / "no/a.tar", members), std::runtime_error);
+  std::vector<TarMember> other = members;
+  other[1].bytes = 2;  // not what its file has
+  EXPECT_THROW(WriteTar(folder / "a.tar", other), std::runtime_error);
+  other[1] = {std::string(101, 'x'), members[1].place, 1};
+  EXPECT_THROW(WriteTar(folder / "a.tar", other), std::invalid_argument);
+  EXPECT_THROW(TarEntries(folder / "absent.tar"), std::runtime_error);
+  EXPECT_THROW(TarEntries(folder.Put("text.tar", std::string(2000, 'x'))), std::runtime_error);
+  WriteTar(folder / "whole.tar", members);
+  const std::vector<uint8_t> bytes = ReadFile(folder / "whole.tar");
+  EXPECT_THROW(TarEntries(folder.Put("cut.tar", std::span(bytes).first(60'000))), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace shimmer::dataset
