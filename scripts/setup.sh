@@ -17,8 +17,8 @@ required=(
 )
 photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
 training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml)
-# Peers that single tests use: the noise library that the paper names; readers of what we write.
-peers=(python3-noise python3-jsonschema)
+# Peers that single tests use: the noise library that the paper names; readers of what we write, a browser too.
+peers=(python3-noise python3-jsonschema chromium fonts-dejavu-core)
 
 packages=("${required[@]}")
 for option in "$@"; do

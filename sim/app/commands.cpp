@@ -10,6 +10,7 @@
 #include "sim/app/merge.h"
 #include "sim/app/plan_text.h"
 #include "sim/app/preview.h"
+#include "sim/app/report.h"
 #include "sim/app/shard_option.h"
 
 namespace shimmer::app {
@@ -118,6 +119,11 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*lis
   preview_command->add_option("--rows", preview.rows, "rows of the sheet (default: 8)")
       ->check(CLI::Range(1, 100));
 
+  std::filesystem::path report_folder;
+  CLI::App* report_command =
+      app.add_subcommand("report", "write a page about a data set, DIR/report.html, and print its path");
+  report_command->add_option("DIR", report_folder, "folder of the data set")->required();
+
   CLI::App* keys_command =
       app.add_subcommand("keys", "list every key of a config, with its range, default and meaning");
   CLI::App* schema_command = app.add_subcommand("schema", "print the config's JSON schema");
@@ -130,6 +136,7 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*lis
     if (*merge_command) return Merge(merge);
     if (*plan_command) config_path = &plan_config, Print(PlanText(plan_config, plan_sets, plan_clip));
     if (*preview_command) Preview(preview);
+    if (*report_command) Print(WriteReport(report_folder).string() + "\n");
     if (*keys_command) Print(KeysHelpText());
     if (*schema_command) Print(SchemaText());
     return kExitDone;

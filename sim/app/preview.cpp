@@ -43,11 +43,12 @@ std::vector<int64_t> SomeClips(const std::set<int64_t>& clips, int rows) {
 
 class Previewer {
  public:
-  explicit Previewer(const std::filesystem::path& folder)
-      : reader_(folder),
-        config_(ConfigOfDataset(folder, reader_.description())),
-        same_engine_(reader_.description().value("engine", 0) == kEngine) {
-    if (reader_.clips().empty()) throw std::runtime_error(folder.string() + ": has no clip that is done");
+  explicit Previewer(const dataset::DatasetReader& reader)
+      : reader_(reader),
+        config_(ConfigOfDataset(reader.folder(), reader.description())),
+        same_engine_(reader.description().value("engine", 0) == kEngine) {
+    if (reader.clips().empty())
+      throw std::runtime_error(reader.folder().string() + ": has no clip that is done");
   }
 
   cv::Mat Sheet(int rows) const {
@@ -100,12 +101,14 @@ class Previewer {
     return small;
   }
 
-  dataset::DatasetReader reader_;
+  const dataset::DatasetReader& reader_;
   ConfigFile config_;
   bool same_engine_;
 };
 
 }  // namespace
+
+cv::Mat ContactSheet(const dataset::DatasetReader& reader, int rows) { return Previewer(reader).Sheet(rows); }
 
 void Preview(const PreviewOptions& options) {
   std::string extension = options.out.extension().string();
@@ -116,15 +119,12 @@ void Preview(const PreviewOptions& options) {
   if (extension == ".png" && options.clip >= 0)
     throw std::invalid_argument(
         "--clip goes with an --out that ends in .gif; a contact sheet shows clips of the whole set");
-  const Previewer previewer(options.folder);
-  if (extension == ".gif") {
+  const dataset::DatasetReader reader(options.folder);
+  if (extension == ".gif")
     dataset::WriteFileAtomically(options.out,
-                                 dataset::EncodeGif(previewer.Frames(options.clip), kGifDelayMs));
-  } else {
-    cv::Mat sheet;
-    previewer.Sheet(options.rows).convertTo(sheet, CV_32F, 1 / 255.0);
-    dataset::WriteFileAtomically(options.out, dataset::EncodePng(sheet, 8));
-  }
+                                 dataset::EncodeGif(Previewer(reader).Frames(options.clip), kGifDelayMs));
+  else
+    dataset::WriteFileAtomically(options.out, dataset::EncodePng(ContactSheet(reader, options.rows), 8));
 }
 
 }  // namespace shimmer::app

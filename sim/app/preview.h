@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <opencv2/core.hpp>
+
+#include "sim/dataset/dataset_reader.h"
 
 namespace shimmer::app {
 
@@ -12,9 +15,13 @@ struct PreviewOptions {
   int rows = 8;       // of the sheet, spread over the data set
 };
 
-// Draws a contact sheet (clean, turbulent, tilt as colours, sigma as heat) or an animation of one clip. Truth
-// that was not written is computed again from the config. Throws std::invalid_argument for another extension
-// or a clip that is not there, std::runtime_error where a file can't be read or written.
+// The middle frame of up to `rows` clips, spread over the data set: clean, turbulent, tilt as colours, sigma
+// as heat. Truth that was not written is computed again from the config. Gives CV_8UC3 RGB. Throws
+// std::runtime_error where a file can't be read, or if no clip is done.
+cv::Mat ContactSheet(const dataset::DatasetReader& reader, int rows);
+
+// Draws a contact sheet or an animation of one clip. Throws std::invalid_argument for another extension or a
+// clip that is not there, std::runtime_error where a file can't be read or written.
 void Preview(const PreviewOptions& options);
 
 }  // namespace shimmer::app

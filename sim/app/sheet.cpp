@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sim/app/bins.h"
 #include "sim/app/colour_maps.h"
 #include "sim/app/sheet_page.h"
 
@@ -33,14 +34,8 @@ cv::Mat Shown(const cv::Mat& frame) {
   return shown;
 }
 
-// The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below value; 1 for 0.
-double RoundUp(double value) {
-  if (!(value > 0)) return 1;
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  for (const double step : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
-    if (step * power >= value) return step * power;
-  return 10 * power;
-}
+// A round end of a scale that is not below value; 1 for 0.
+double ScaleEnd(double value) { return value > 0 ? RoundUp(value, {1, 1.5, 2, 3, 4, 5, 6, 8}) : 1; }
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -63,14 +58,14 @@ double TiltScale(std::span<const SheetRow> rows) {
       ++count;
     }
   }
-  return RoundUp(std::min(longest, 2 * std::sqrt(sum / std::max(count, 1.0))));
+  return ScaleEnd(std::min(longest, 2 * std::sqrt(sum / std::max(count, 1.0))));
 }
 
 Range SigmaScale(std::span<const SheetRow> rows) {
   Range sigma;
   for (const SheetRow& row : rows)
     for (auto value = row.sigma.begin<float>(); value != row.sigma.end<float>(); ++value) sigma.Add(*value);
-  const double high = RoundUp(sigma.high);
+  const double high = ScaleEnd(sigma.high);
   // From 0, unless all of it lies in the scale's upper half.
   return {sigma.low > 0.5 * high ? 0.5 * high : 0, high};
 }

@@ -61,6 +61,17 @@ std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const s
   return Write("exr", spec, samples);
 }
 
+std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality) {
+  if (image.type() != CV_8UC3) throw std::invalid_argument("a JPEG's image must be CV_8UC3");
+  if (quality < 1 || quality > 100)
+    throw std::invalid_argument("quality = " + std::to_string(quality) + ", must be in [1, 100]");
+  const cv::Mat samples = image.isContinuous() ? image : image.clone();
+  OIIO::ImageSpec spec = SpecOf(samples, OIIO::TypeUInt8);
+  spec["Compression"] = "jpeg:" + std::to_string(quality);
+  spec["jpeg:subsampling"] = "4:4:4";
+  return Write("jpeg", spec, samples);
+}
+
 std::vector<uint8_t> EncodeImage(const cv::Mat& image, Encoding encoding) {
   if (encoding.format == FileFormat::kPng) return EncodePng(image, encoding.bits);
   static const std::vector<std::string> grey = {"Y"}, colour = {"R", "G", "B"};

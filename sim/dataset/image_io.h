@@ -82,6 +82,10 @@ std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const s
 // A frame: PNG, or EXR with the channels Y or R, G, B.
 std::vector<uint8_t> EncodeImage(const cv::Mat& image, Encoding encoding);
 
+// For people to look at. image: CV_8UC3 RGB; quality in [1, 100]; colour as fine as brightness (4:4:4).
+// Throws std::invalid_argument for anything else.
+std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality);
+
 // An animation that repeats for ever; frames: CV_8UC3 RGB of one size; each shown for delay_ms, rounded to 10
 // ms.
 std::vector<uint8_t> EncodeGif(std::span<const cv::Mat> frames, int delay_ms);

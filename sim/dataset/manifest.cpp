@@ -125,19 +125,24 @@ Json Manifest::Line(int64_t clip) const {
   const auto place = places_.find(clip);
   if (place == places_.end())
     throw std::runtime_error(paths_.front().string() + ": has no clip " + std::to_string(clip));
-  const fs::path& path = paths_[place->second.file];
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(place->second.offset));
+  std::ifstream file(paths_[place->second.file], std::ios::binary);
+  return LineAt(file, clip, place->second);
+}
+
+Json Manifest::LineAt(std::ifstream& file, int64_t clip, Place place) const {
+  file.seekg(static_cast<std::streamoff>(place.offset));
   std::string line;
   std::getline(file, line);
   Json json = Json::parse(line, nullptr, /*allow_exceptions=*/false);
   if (!file || !json.is_object() || json.value("clip", int64_t{-1}) != clip)
-    throw std::runtime_error(path.string() + ": has changed since it was read");
+    throw std::runtime_error(paths_[place.file].string() + ": has changed since it was read");
   return json;
 }
 
 void Manifest::ForEachLine(const std::function<void(int64_t, const Json&)>& visit) const {
-  for (const auto& [clip, place] : places_) visit(clip, Line(clip));
+  std::vector<std::ifstream> files;
+  for (const fs::path& path : paths_) files.emplace_back(path, std::ios::binary);
+  for (const auto& [clip, place] : places_) visit(clip, LineAt(files[place.file], clip, place));
 }
 
 ManifestWriter::ManifestWriter(const fs::path& path, uint64_t whole_bytes)

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -63,7 +64,8 @@ class Manifest {
   // The line that counts. Throws std::runtime_error if the clip has none or the file has changed.
   Json Line(int64_t clip) const;
 
-  // Every line that counts, by the clips' numbers: a quick walk through 100,000 of them.
+  // Every line that counts, by the clips' numbers: a quick walk through 100,000 of them, each read once.
+  // Throws as Line.
   void ForEachLine(const std::function<void(int64_t clip, const Json& line)>& visit) const;
 
  private:
@@ -73,6 +75,7 @@ class Manifest {
   };
   void Read(uint32_t file, const Damaged& damaged);
   void Note(const std::string& line, Place place);
+  Json LineAt(std::ifstream& file, int64_t clip, Place place) const;
 
   std::vector<std::filesystem::path> paths_;
   std::vector<uint64_t> whole_bytes_;

@@ -219,6 +219,24 @@ TEST(ImageIo, WritesAPngsOwnSamples) {
   }
 }
 
+// Also from a part of a larger picture, whose rows are not side by side. Full-colour detail survives, as it would not
+// with colour at half the resolution.
+TEST(ImageIo, JpegsForPeopleLookLikeThePicture) {
+  const TempFolder folder;
+  cv::Mat sheet(40, 60, CV_8UC3, cv::Scalar(200, 30, 60));
+  for (int x = 0; x < sheet.cols; x += 2) sheet.col(x).setTo(cv::Scalar(60, 30, 200));
+  const cv::Mat part = sheet(cv::Rect(3, 5, 33, 21));
+  const std::vector<uint8_t> bytes = EncodeJpeg(part, 90);
+  EXPECT_EQ(bytes, EncodeJpeg(part, 90));
+  const Picture picture = ReadImage(folder.Put("a.jpg", bytes));
+  cv::Mat expected;
+  part.convertTo(expected, CV_32F, 1 / 255.0);
+  ASSERT_EQ(picture.pixels.size(), part.size());
+  EXPECT_LT(cv::norm(picture.pixels, expected, cv::NORM_L1) / double(part.total() * 3), 4 / 255.0);
+  EXPECT_THROW(EncodeJpeg(expected, 90), std::invalid_argument);
+  EXPECT_THROW(EncodeJpeg(part, 0), std::invalid_argument);
+}
+
 TEST(ImageIo, WrongArguments) {
   const cv::Mat image = RandomImage({2, 2}, 3, 5), two = RandomImage({2, 2}, 2, 5);
   const std::vector<std::string> names = {"R", "G"};

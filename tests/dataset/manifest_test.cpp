@@ -32,6 +32,21 @@ TEST(Manifest, TheLastLineOfAClipCounts) {
   EXPECT_THROW(done.Line(2), std::runtime_error);
 }
 
+TEST(Manifest, EveryLineThatCountsOnceInTheOrderOfItsClip) {
+  const TempFolder folder;
+  const auto lines = [](const Manifest& manifest) {
+    std::vector<std::string> lines;
+    manifest.ForEachLine([&](int64_t, const Json& line) { lines.push_back(line.dump() + "\n"); });
+    return lines;
+  };
+  const auto path = folder.Put("m", kFailed1 + kDone0 + kDone1 + "{\"clip\":2,\"sta");
+  EXPECT_EQ(lines(Manifest(path)), (std::vector<std::string>{kDone0, kDone1}));
+  EXPECT_TRUE(lines(Manifest(folder / "no")).empty());
+  const Manifest manifest(path);
+  folder.Put("m", kDone1 + kDone0);
+  EXPECT_THROW(lines(manifest), std::runtime_error);  // has changed meanwhile
+}
+
 TEST(Manifest, ATornLastLineIsNotThere) {
   const TempFolder folder;
   for (size_t cut = 0; cut < kDone1.size(); ++cut) {  // the newline alone may be missing

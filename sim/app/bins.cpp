@@ -1,0 +1,114 @@
+#include "sim/app/bins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/app/number_text.h"
+
+namespace shimmer::app {
+namespace {
+
+constexpr int kMostBins = 30, kRatioBins = 24;
+
+// Numbers closer than this, of their size, are one: their difference is rounding.
+constexpr double kSame = 1e-9;
+constexpr double kZero = 1e-100;  // as good as 0
+
+std::vector<double> RatioEdges(double low, double high) {
+  std::vector<double> edges;
+  for (int i = 0; i <= kRatioBins; ++i) edges.push_back(low * std::pow(high / low, double(i) / kRatioBins));
+  return edges;
+}
+
+std::vector<double> RoundEdges(double low, double high, double width) {
+  // A number that is an edge but for rounding makes no bin of its own.
+  const double first = std::floor(low / width + 1e-6), last = std::ceil(high / width - 1e-6);
+  std::vector<double> edges;
+  for (double k = first; k <= std::max(last, first + 1); ++k) edges.push_back(k * width);
+  return edges;
+}
+
+// Whole numbers k, k + 1, ... k + width - 1 a bin, with edges half a number beside them.
+std::vector<double> WholeEdges(double low, double high, double width) {
+  std::vector<double> edges;
+  for (double first = std::floor(low / width) * width; first <= high; first += width)
+    edges.push_back(first - 0.5);
+  edges.push_back(edges.back() + width);
+  return edges;
+}
+
+double HalfWidthOfOne(double value, bool whole) {
+  return whole || std::abs(value) <= kZero ? std::max(0.5, std::abs(value) / 20) : std::abs(value) / 20;
+}
+
+std::string RangeText(double low, double high, double step) {
+  return RoundedText(low, step) + " to " + RoundedText(high, step);
+}
+
+}  // namespace
+
+std::vector<Bin> PutIntoBins(std::span<const double> sorted, AxisKind kind) {
+  const double low = sorted.front(), high = sorted.back(), size = std::max(std::abs(low), std::abs(high));
+  const bool one = high - low <= std::max(kSame * size, kZero), whole = kind == AxisKind::kWhole;
+  const double whole_width = one ? 1 : std::max(1.0, RoundUp((high - low + 1) / kMostBins, {1, 2, 5}));
+  std::vector<double> edges;
+  if (one)
+    edges = {low - HalfWidthOfOne(low, whole), low + HalfWidthOfOne(low, whole)};
+  else if (whole)
+    edges = WholeEdges(low, high, whole_width);
+  else if (kind == AxisKind::kLogarithmic)
+    edges = RatioEdges(low, high);
+  else
+    edges = RoundEdges(low, high, RoundUp((high - low) / kMostBins, {1, 2, 2.5, 5}));
+
+  std::vector<Bin> bins;
+  for (size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double from = edges[i], to = edges[i + 1];
+    std::string text = one ? ShortText(low) : RangeText(from, to, (to - from) / 2);
+    if (whole && !one)
+      text = whole_width == 1 ? RoundedText(from + 0.5, 1) : RangeText(from + 0.5, to - 0.5, 1);
+    bins.push_back({from, to, 0, text});
+  }
+  for (const double value : sorted) {
+    const auto above = std::upper_bound(edges.begin(), edges.end(), value) - edges.begin();
+    ++bins[std::clamp<int64_t>(above - 1, 0, static_cast<int64_t>(bins.size()) - 1)].count;
+  }
+  return bins;
+}
+
+std::vector<double> Ticks(double low, double high, size_t most, AxisKind kind) {
+  std::vector<double> ticks;
+  if (kind == AxisKind::kLogarithmic) {
+    std::vector<double> powers;
+    for (double exponent = std::floor(std::log10(low)); exponent <= std::log10(high); ++exponent) {
+      for (const double step : {1.0, 2.0, 5.0}) {
+        const double tick = step * std::pow(10, exponent);
+        if (tick < low || tick > high) continue;
+        ticks.push_back(tick);
+        if (step == 1) powers.push_back(tick);
+      }
+    }
+    if (ticks.size() > most) ticks = powers;
+    for (const auto every = ticks.size() / most + 1; ticks.size() > most;) {  // very many powers
+      std::vector<double> fewer;
+      for (size_t i = 0; i < ticks.size(); i += every) fewer.push_back(ticks[i]);
+      ticks = fewer;
+    }
+    if (ticks.size() >= 2) return ticks;
+    ticks.clear();
+  }
+  const double least = (high - low) / static_cast<double>(most);
+  const double step =
+      kind == AxisKind::kWhole ? std::max(1.0, RoundUp(least, {1, 2, 5})) : RoundUp(least, {1, 2, 2.5, 5});
+  for (double k = std::ceil(low / step); k <= std::floor(high / step); ++k) ticks.push_back(k * step);
+  return ticks;
+}
+
+double RoundUp(double value, std::initializer_list<double> steps) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double step : steps)
+    if (step * power >= value) return step * power;
+  return 10 * power;
+}
+
+}  // namespace shimmer::app

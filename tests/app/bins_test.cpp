@@ -1,0 +1,187 @@
+// Bins and ticks of histograms, and how numbers and texts are written into pages.
+#include "sim/app/bins.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "sim/app/html.h"
+#include "sim/app/number_text.h"
+
+namespace shimmer::app {
+namespace {
+
+using Numbers = std::vector<double>;
+
+// Side by side, finite, some 15 to 30 unless there is less to tell apart, and every number is in one that
+// holds it.
+void ExpectBinsHold(const Numbers& sorted, AxisKind kind) {
+  const std::vector<Bin> bins = PutIntoBins(sorted, kind);
+  ASSERT_FALSE(bins.empty());
+  EXPECT_LE(bins.size(), 32u);
+  int64_t count = 0;
+  for (size_t i = 0; i < bins.size(); ++i) {
+    const Bin& bin = bins[i];
+    ASSERT_TRUE(std::isfinite(bin.low) && std::isfinite(bin.high)) << bin.low << " " << bin.high;
+    ASSERT_LT(bin.low, bin.high);
+    if (i > 0) {
+      EXPECT_EQ(bin.low, bins[i - 1].high);
+    }
+    EXPECT_FALSE(bin.text.empty());
+    count += bin.count;
+    const bool last = i + 1 == bins.size();
+    // A number that is an edge but for rounding may lie on its other side, at the very ends.
+    const double slack = 1e-5 * (bin.high - bin.low);
+    EXPECT_EQ(bin.count,
+              std::ranges::count_if(sorted,
+                                    [&](double value) {
+                                      return (value >= bin.low || (i == 0 && value >= bin.low - slack)) &&
+                                             (value < bin.high || (last && value <= bin.high + slack));
+                                    }))
+        << bin.text;
+  }
+  EXPECT_EQ(count, std::ssize(sorted));
+  EXPECT_GT(bins.front().count, 0);  // no bins beyond the numbers
+  EXPECT_GT(bins.back().count, 0);
+}
+
+TEST(Bins, HoldEveryNumberOnce) {
+  std::mt19937 generator(1);
+  for (int round = 0; round < 300; ++round) {
+    const double scale = std::pow(10, std::uniform_real_distribution<>(-7, 7)(generator));
+    const double start = std::uniform_real_distribution<>(-3, 3)(generator) * scale;
+    std::uniform_real_distribution<> number(start, start + scale);
+    Numbers sorted(1 + generator() % 200);
+    for (double& value : sorted) value = number(generator);
+    std::ranges::sort(sorted);
+    ExpectBinsHold(sorted, AxisKind::kLinear);
+    if (sorted.size() > 1 && sorted.front() > 0) ExpectBinsHold(sorted, AxisKind::kLogarithmic);
+    for (double& value : sorted) value = std::round(value);
+    ExpectBinsHold(sorted, AxisKind::kWhole);
+  }
+}
+
+TEST(Bins, AreEnoughForManyNumbersAndRound) {
+  Numbers sorted;
+  for (int i = 0; i <= 1000; ++i) sorted.push_back(2 + 6 * i / 1000.0);
+  const std::vector<Bin> bins = PutIntoBins(sorted, AxisKind::kLinear);
+  EXPECT_EQ(bins.size(), 30u);
+  EXPECT_EQ(bins.front().text, "2 to 2.2");
+  EXPECT_EQ(bins.back().text, "7.8 to 8");
+  for (const Bin& bin : bins) EXPECT_NEAR(double(bin.count), 1000 * 0.2 / 6, 2);
+}
+
+TEST(Bins, OfWholeNumbersHaveThemInTheirMiddle) {
+  const std::vector<Bin> few = PutIntoBins(Numbers{6, 6, 8}, AxisKind::kWhole);
+  ASSERT_EQ(few.size(), 3u);
+  EXPECT_EQ(few[0].text, "6");
+  EXPECT_EQ(few[0].low, 5.5);
+  EXPECT_EQ((std::vector<int64_t>{few[0].count, few[1].count, few[2].count}),
+            (std::vector<int64_t>{2, 0, 1}));
+  Numbers hundred;
+  for (int i = 0; i < 100; ++i) hundred.push_back(i);
+  const std::vector<Bin> many = PutIntoBins(hundred, AxisKind::kWhole);
+  ASSERT_EQ(many.size(), 20u);
+  EXPECT_EQ(many[1].text, "5 to 9");
+  for (const Bin& bin : many) EXPECT_EQ(bin.count, 5);
+}
+
+TEST(Bins, OfEqualNumbersIsOne) {
+  for (const AxisKind kind : {AxisKind::kLinear, AxisKind::kWhole, AxisKind::kLogarithmic}) {
+    for (const double value : {0.0, 1e-320, 1e-7, 7.0, 1e15, 1e100}) {
+      if (kind == AxisKind::kLogarithmic && value == 0) continue;
+      for (const Numbers& numbers : {Numbers{value}, Numbers{value, value, value * (1 + 1e-15)}}) {
+        const std::vector<Bin> bins = PutIntoBins(numbers, kind);
+        ASSERT_EQ(bins.size(), 1u) << value;
+        EXPECT_LT(bins[0].low, value);
+        EXPECT_GT(bins[0].high, value);
+        EXPECT_EQ(bins[0].count, std::ssize(numbers));
+      }
+    }
+  }
+}
+
+TEST(Bins, OfNumbersFarApart) {
+  ExpectBinsHold({-1e100, 0, 1e100}, AxisKind::kLinear);
+  ExpectBinsHold({-1e100, 0, 1e100}, AxisKind::kWhole);
+  ExpectBinsHold({1e-100, 1, 1e100}, AxisKind::kLogarithmic);
+  ExpectBinsHold({0, 1e-99}, AxisKind::kLinear);
+  ExpectBinsHold({1e12, 1e12 + 1e5}, AxisKind::kWhole);
+}
+
+TEST(AxisTicks, AreRoundAndWithin) {
+  EXPECT_EQ(Ticks(0, 10, 5, AxisKind::kLinear), (Numbers{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(Ticks(0, 3, 5, AxisKind::kWhole), (Numbers{0, 1, 2, 3}));
+  EXPECT_EQ(Ticks(5.5, 8.5, 6, AxisKind::kWhole), (Numbers{6, 7, 8}));
+  EXPECT_THAT(Ticks(0.4, 12, 6, AxisKind::kLogarithmic),
+              testing::Pointwise(testing::DoubleEq(), Numbers{0.5, 1, 2, 5, 10}));
+  EXPECT_THAT(Ticks(0.001, 1000, 6, AxisKind::kLogarithmic), testing::SizeIs(testing::Le(6u)));
+  EXPECT_GE(Ticks(3, 4.9, 6, AxisKind::kLogarithmic).size(), 3u);  // none of 1, 2, 5: linear ones
+  std::mt19937 generator(2);
+  for (int round = 0; round < 1000; ++round) {
+    const double low = std::pow(10, std::uniform_real_distribution<>(-6, 6)(generator));
+    const double high = low * (1.1 + 100 * std::uniform_real_distribution<>(0, 1)(generator));
+    for (const AxisKind kind : {AxisKind::kLinear, AxisKind::kLogarithmic}) {
+      const Numbers ticks = Ticks(low, high, 6, kind);
+      EXPECT_TRUE(std::ranges::is_sorted(ticks));
+      EXPECT_GE(ticks.size(), 2u) << low << " " << high;
+      EXPECT_LE(ticks.size(), 7u) << low << " " << high;
+      EXPECT_GE(ticks.front(), low * (1 - 1e-12));
+      EXPECT_LE(ticks.back(), high * (1 + 1e-12));
+    }
+  }
+}
+
+TEST(NumberTexts, AreShort) {
+  EXPECT_EQ(ShortText(0), "0");
+  EXPECT_EQ(ShortText(0.03124), "0.0312");
+  EXPECT_EQ(ShortText(4.9712), "4.97");
+  EXPECT_EQ(ShortText(-2.5), "-2.5");
+  EXPECT_EQ(ShortText(12345.6), "12346");
+  EXPECT_EQ(ShortText(1e100), "1e+100");
+  EXPECT_EQ(RoundedText(-1e-9, 0.5), "0");
+  EXPECT_EQ(RoundedText(2, 0.5), "2");
+  EXPECT_EQ(RoundedText(12.345, 0.005), "12.345");
+  EXPECT_EQ(Grouped(0), "0");
+  EXPECT_EQ(Grouped(999), "999");
+  EXPECT_EQ(Grouped(1000), "1,000");
+  EXPECT_EQ(Grouped(1234567), "1,234,567");
+  EXPECT_EQ(Counted(1, "clip"), "1 clip");
+  EXPECT_EQ(Counted(0, "clip"), "0 clips");
+  EXPECT_EQ(BytesText(999), "999 bytes");
+  EXPECT_EQ(BytesText(5'612'345'678), "5.61 GB");
+}
+
+TEST(HtmlTexts, HoldNoMarkupAndNothingButText) {
+  EXPECT_EQ(EscapeHtml("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
+  EXPECT_EQ(EscapeHtml("tab\tline\n"), "tab\tline\n");
+  const std::string good = "gr\xC3\xBC\xC3\x9F \xE2\x82\xAC \xF0\x9F\x8C\x8A \xF4\x8F\xBF\xBF";
+  EXPECT_EQ(EscapeHtml(good), good);
+  const std::string no = "\xEF\xBF\xBD";
+  EXPECT_EQ(EscapeHtml(std::string("a\0b\x1B\x7F", 5)), "a" + no + "b" + no + no);
+  EXPECT_EQ(EscapeHtml("\xFFx"), no + "x");
+  EXPECT_EQ(EscapeHtml("\xC3"), no);                             // cut off
+  EXPECT_EQ(EscapeHtml("\xC3<"), no + "&lt;");                   // and what follows is not swallowed
+  EXPECT_EQ(EscapeHtml("\xC0\xBC"), no + no);                    // "<" in too long a form
+  EXPECT_EQ(EscapeHtml("\xED\xA0\x80"), no + no + no);           // half a surrogate pair
+  EXPECT_EQ(EscapeHtml("\xF4\x90\x80\x80"), no + no + no + no);  // beyond Unicode
+  EXPECT_EQ(EscapeHtml("\xC2\x85"), no + no);                    // a C1 control
+}
+
+TEST(HtmlTexts, Base64OfRfc4648) {
+  const auto of = [](const std::string& text) {
+    return Base64({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  };
+  EXPECT_EQ(of(""), "");
+  EXPECT_EQ(of("f"), "Zg==");
+  EXPECT_EQ(of("fo"), "Zm8=");
+  EXPECT_EQ(of("foo"), "Zm9v");
+  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(of("\xFB\xFF"), "+/8=");
+}
+
+}  // namespace
+}  // namespace shimmer::app
