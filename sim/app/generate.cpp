@@ -117,7 +117,8 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   if (error) std::rethrow_exception(error);
 
   const Count count = CountClips(*writer, clips, options.shard);
-  if (options.shard.whole() && !stop) FinishDataset(options.out, writer->layout());
+  if (options.shard.whole() && !stop && !(pending.empty() && IsFinished(options.out)))
+    FinishDataset(options.out, writer->layout());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!options.quiet) std::printf("%s\n", Summary(options, count, seconds).c_str());
   if (stop) return kExitInterrupted;

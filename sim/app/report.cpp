@@ -125,9 +125,8 @@ std::string ReportHtml(const std::filesystem::path& folder) {
 
 std::filesystem::path WriteReport(const std::filesystem::path& folder) {
   const std::string html = ReportHtml(folder);
-  const std::filesystem::path path = folder / kReportName;
-  dataset::WriteFileAtomically(path, dataset::AsBytes(html));
-  return path;
+  dataset::WriteDatasetFile(folder, kReportName, dataset::AsBytes(html));
+  return folder / kReportName;
 }
 
 }  // namespace shimmer::app

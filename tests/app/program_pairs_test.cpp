@@ -16,7 +16,7 @@ TEST(Pairs, HaveEqualNamesAndNothingElse) {
                                       {"truth", {"tilt", "sigma"}}}}}));
   ExpectDone(Generate(folder, "c.json", "set"));
   EXPECT_EQ(NamesIn(folder / "set"),
-            (std::set<std::string>{".lock", "dataset.json", "manifest.jsonl", "night"}));
+            (std::set<std::string>{".lock", "dataset.json", "manifest.jsonl", "night", "report.html"}));
   EXPECT_EQ(NamesIn(folder / "set/night"), (std::set<std::string>{"test", "train"}));
   std::set<std::string> all;
   for (const auto& [half, count] : {std::pair{"train", 21u}, std::pair{"test", 9u}}) {
