@@ -10,13 +10,14 @@ required=(
   g++ cmake ninja-build pkg-config ccache git
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev libopencv-dev
   libopenimageio-dev openimageio-tools libopenexr-dev  # OpenImageIO's CMake files name its programs
-  libtbb-dev libhwy-dev nlohmann-json3-dev libcli11-dev libssl-dev zlib1g-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libtbb-dev libhwy-dev nlohmann-json3-dev libcli11-dev libssl-dev zlib1g-dev libisal-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
   python3
 )
 photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
 # Peers that single tests use: the noise library that the paper names; readers of what we write.
-peers=(python3-noise python3-numpy python3-jsonschema python3-openimageio)
+peers=(python3-noise python3-numpy python3-jsonschema python3-openimageio python3-pil
+       python3-opencv)
 
 packages=("${required[@]}")
 for option in "$@"; do
