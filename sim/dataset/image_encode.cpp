@@ -5,6 +5,7 @@
 
 #include "sim/dataset/image_io.h"
 #include "sim/dataset/oiio_setup.h"
+#include "sim/dataset/png_write.h"
 
 namespace shimmer::dataset {
 namespace {
@@ -29,7 +30,8 @@ std::vector<uint8_t> Write(const char* format, const OIIO::ImageSpec& spec, cons
   output->set_ioproxy(&memory);
   // The name says nothing but the format: nothing is written to disk.
   const bool written = output->open(std::string("memory.") + format, spec) &&
-                       output->write_image(spec.format, samples.data) && output->close();
+                       output->write_image(spec.format, samples.data, OIIO::AutoStride, samples.step) &&
+                       output->close();
   if (!written || output->has_error())
     throw std::runtime_error(std::string(format) + ": can't be encoded: " + output->geterror());
   return bytes;
@@ -39,10 +41,12 @@ std::vector<uint8_t> Write(const char* format, const OIIO::ImageSpec& spec, cons
 
 const char* Extension(FileFormat format) { return format == FileFormat::kPng ? "png" : "exr"; }
 
-std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits) {
-  if (image.channels() != 1 && image.channels() != 3)
-    throw std::invalid_argument("a PNG of " + std::to_string(image.channels()) + " channels, must be 1 or 3");
+std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits, PngWriter writer) {
   const cv::Mat samples = ToSamples(image, {FileFormat::kPng, bits});
+  if (writer == PngWriter::kIsal) return WritePng(samples);
+  if (image.channels() != 1 && image.channels() != 3)
+    throw std::invalid_argument("a PNG of " + std::to_string(image.channels()) +
+                                " channels, by OpenImageIO must be 1 or 3");
   OIIO::ImageSpec spec = SpecOf(samples, bits == 8 ? OIIO::TypeUInt8 : OIIO::TypeUInt16);
   spec["png:compressionLevel"] = kPngLevel;
   spec["png:filter"] = kPngFilterAverage;
@@ -62,7 +66,7 @@ std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const s
 }
 
 std::vector<uint8_t> EncodeImage(const cv::Mat& image, Encoding encoding) {
-  if (encoding.format == FileFormat::kPng) return EncodePng(image, encoding.bits);
+  if (encoding.format == FileFormat::kPng) return EncodePng(image, encoding.bits, encoding.png_writer);
   static const std::vector<std::string> grey = {"Y"}, colour = {"R", "G", "B"};
   return EncodeExr(image, encoding.bits, image.channels() == 1 ? grey : colour);
 }

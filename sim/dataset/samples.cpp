@@ -55,7 +55,7 @@ cv::Mat Finite(const cv::Mat& image) {
 cv::Mat ToSamples(const cv::Mat& image, Encoding encoding) {
   const bool png = encoding.format == FileFormat::kPng;
   const int integers = encoding.bits == 8 ? CV_8U : CV_16U;
-  if (png && !image.empty() && image.depth() == integers) return image.isContinuous() ? image : image.clone();
+  if (png && !image.empty() && image.depth() == integers) return image;
   if (image.empty() || image.depth() != CV_32F)
     throw std::invalid_argument("a picture must be float32, or a PNG's own integers, and not empty");
   if (png && encoding.bits == 8) return ToIntegers<uint8_t>(image, CV_8U, 255);

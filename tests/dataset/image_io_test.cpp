@@ -13,8 +13,12 @@ namespace shimmer::dataset {
 namespace {
 
 const std::vector<cv::Size> kSizes = {{1, 1}, {1, 17}, {17, 1}, {31, 33}};
-const std::vector<Encoding> kEncodings = {
-    {FileFormat::kPng, 8}, {FileFormat::kPng, 16}, {FileFormat::kExr, 16}, {FileFormat::kExr, 32}};
+const std::vector<Encoding> kEncodings = {{FileFormat::kPng, 8},
+                                          {FileFormat::kPng, 16},
+                                          {FileFormat::kPng, 8, PngWriter::kOpenImageIo},
+                                          {FileFormat::kPng, 16, PngWriter::kOpenImageIo},
+                                          {FileFormat::kExr, 16},
+                                          {FileFormat::kExr, 32}};
 
 // Written by OpenImageIO itself, to have what our own writers never make.
 std::filesystem::path PutWithOiio(const TempFolder& folder, const std::string& name, OIIO::ImageSpec spec,
@@ -185,8 +189,8 @@ TEST(ImageIo, ExrIsCompressedByZips) {
 // Samples need not be made of floats: those of a PNG are written as they are, also from within a larger
 // picture.
 TEST(ImageIo, WritesAPngsOwnSamples) {
-  for (int bits : {8, 16}) {
-    const Encoding encoding{FileFormat::kPng, bits};
+  for (const Encoding& encoding : kEncodings) {
+    if (encoding.format != FileFormat::kPng) continue;
     const cv::Mat samples = ToSamples(RandomImage({21, 13}, 3, 5), encoding);
     for (const cv::Mat& part : {samples, cv::Mat(samples(cv::Rect(3, 2, 9, 7)))}) {
       EXPECT_EQ(EncodeImage(part, encoding), EncodeImage(FromSamples(part), encoding));
@@ -195,12 +199,20 @@ TEST(ImageIo, WritesAPngsOwnSamples) {
   }
 }
 
+TEST(ImageIo, FromWithinALargerPicture) {
+  const cv::Mat part = RandomImage({21, 13}, 3, 6)(cv::Rect(3, 2, 9, 7));
+  ASSERT_FALSE(part.isContinuous());
+  for (const Encoding encoding : kEncodings)
+    EXPECT_EQ(EncodeImage(part, encoding), EncodeImage(part.clone(), encoding)) << Extension(encoding.format);
+}
+
 TEST(ImageIo, WrongArguments) {
   const cv::Mat image = RandomImage({2, 2}, 3, 5), two = RandomImage({2, 2}, 2, 5);
   const std::vector<std::string> names = {"R", "G"};
   EXPECT_THROW(EncodePng(image, 12), std::invalid_argument);
   EXPECT_THROW(EncodePng(image, 32), std::invalid_argument);
-  EXPECT_THROW(EncodePng(two, 8), std::invalid_argument);
+  EXPECT_THROW(EncodePng(two, 8, PngWriter::kOpenImageIo), std::invalid_argument);
+  EXPECT_THROW(EncodePng(RandomImage({2, 2}, 5, 5), 8), std::invalid_argument);
   EXPECT_THROW(EncodePng(cv::Mat(), 8), std::invalid_argument);
   EXPECT_THROW(EncodePng(cv::Mat(2, 2, CV_8UC3), 16), std::invalid_argument);
   EXPECT_THROW(EncodePng(cv::Mat(2, 2, CV_16UC3), 8), std::invalid_argument);
