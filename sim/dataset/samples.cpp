@@ -33,7 +33,20 @@ cv::Mat FromIntegers(const cv::Mat& samples, float top) {
   return image;
 }
 
+// False for NaN.
+bool IsInRange(const cv::Mat& image) {
+  const int row_samples = image.cols * image.channels();
+  for (int y = 0; y < image.rows; ++y) {
+    const float* row = image.ptr<float>(y);
+    int outside = 0;
+    for (int i = 0; i < row_samples; ++i) outside += !(row[i] >= -kMaxSample && row[i] <= kMaxSample);
+    if (outside > 0) return false;
+  }
+  return true;
+}
+
 cv::Mat Finite(const cv::Mat& image) {
+  if (IsInRange(image)) return image;  // nearly always
   cv::Mat finite = image.clone();
   const int row_samples = image.cols * image.channels();
   for (int y = 0; y < finite.rows; ++y) {

@@ -177,13 +177,28 @@ TEST(ImageIo, TheSameBytesAgain) {
   EXPECT_EQ(encode_all(), first);
 }
 
-TEST(ImageIo, ExrIsCompressedByZips) {
+// Half floats always; floats where it helps: planes of one value, and values of 8 bits, but not noise.
+TEST(ImageIo, ExrIsCompressedByZipsWhereItHelps) {
   const TempFolder folder;
-  const auto path = folder.Put("x.exr", EncodeImage(RandomImage({8, 8}, 3, 4), {FileFormat::kExr, 16}));
-  const auto input = OIIO::ImageInput::open(path.string());
-  ASSERT_TRUE(input);
-  EXPECT_EQ(input->spec().get_string_attribute("compression"), "zips");
-  EXPECT_EQ(input->spec().format, OIIO::TypeHalf);
+  const auto compression_of = [&](const cv::Mat& image, int bits) {
+    const auto path = folder.Put("x.exr", EncodeImage(image, {FileFormat::kExr, bits}));
+    EXPECT_TRUE(SameBits(ReadImage(path).pixels, Quantise(image, {FileFormat::kExr, bits})));
+    const auto input = OIIO::ImageInput::open(path.string());
+    EXPECT_EQ(input->spec().format, bits == 16 ? OIIO::TypeHalf : OIIO::TypeFloat);
+    return input->spec().get_string_attribute("compression");
+  };
+  for (const cv::Size size : {cv::Size(64, 1), cv::Size(40, 15), cv::Size(50, 200)}) {
+    const cv::Mat noise = RandomImage(size, 3, 4);
+    cv::Mat one_plane = noise.clone(), few_levels;
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x) one_plane.at<cv::Vec3f>(y, x)[1] = 0;
+    noise.convertTo(few_levels, CV_8U, 10);
+    few_levels.convertTo(few_levels, CV_32F, 1 / 255.0);
+    EXPECT_EQ(compression_of(noise, 16), "zips") << size;
+    EXPECT_EQ(compression_of(noise, 32), "none") << size;
+    EXPECT_EQ(compression_of(one_plane, 32), "zips") << size;
+    EXPECT_EQ(compression_of(few_levels, 32), "zips") << size;
+  }
 }
 
 // Samples need not be made of floats: those of a PNG are written as they are, also from within a larger
