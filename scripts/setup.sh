@@ -11,14 +11,14 @@ required=(
   g++ cmake ninja-build pkg-config ccache git
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev libopencv-dev
   libopenimageio-dev openimageio-tools libopenexr-dev  # OpenImageIO's CMake files name its programs
-  libtbb-dev libhwy-dev nlohmann-json3-dev libcli11-dev libssl-dev zlib1g-dev libarchive-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libtbb-dev libhwy-dev nlohmann-json3-dev libcli11-dev libssl-dev zlib1g-dev libarchive-dev libisal-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
   python3
 )
 photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
 training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml)
 # Peers that single tests use: the noise library that the paper names; readers of what we write, a browser too.
-peers=(python3-noise python3-jsonschema chromium fonts-dejavu-core)
+peers=(python3-noise python3-jsonschema python3-pil chromium fonts-dejavu-core)
 
 packages=("${required[@]}")
 for option in "$@"; do

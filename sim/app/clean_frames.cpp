@@ -26,7 +26,10 @@ cv::Size Scaled(cv::Size size, double scale) {
 }
 
 dataset::Encoding EncodingOf(const OutputParams& output) {
-  return {output.format == Format::kPng ? dataset::FileFormat::kPng : dataset::FileFormat::kExr, output.bits};
+  return {.format = output.format == Format::kPng ? dataset::FileFormat::kPng : dataset::FileFormat::kExr,
+          .bits = output.bits,
+          .png_writer = output.png_writer == PngWriter::kIsal ? dataset::PngWriter::kIsal
+                                                              : dataset::PngWriter::kOpenImageIo};
 }
 
 bool OutputIsLinear(const Config& config) {

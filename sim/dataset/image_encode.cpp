@@ -1,10 +1,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "sim/dataset/image_io.h"
 #include "sim/dataset/oiio_setup.h"
+#include "sim/dataset/png_write.h"
 
 namespace shimmer::dataset {
 namespace {
@@ -23,26 +25,51 @@ OIIO::ImageSpec SpecOf(const cv::Mat& samples, OIIO::TypeDesc type) {
 std::vector<uint8_t> Write(const char* format, const OIIO::ImageSpec& spec, const cv::Mat& samples) {
   SetUpOpenImageIO();
   std::vector<uint8_t> bytes;
+  // All that it will be (16 bytes a row are of the format): growing would copy it several times.
+  if (spec.get_string_attribute("compression") == "none")
+    bytes.reserve(spec.image_bytes() + spec.height * 16 + 4096);
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const auto output = OIIO::ImageOutput::create(format);
   if (!output) throw std::runtime_error(std::string(format) + ": OpenImageIO has no writer for it");
   output->set_ioproxy(&memory);
   // The name says nothing but the format: nothing is written to disk.
   const bool written = output->open(std::string("memory.") + format, spec) &&
-                       output->write_image(spec.format, samples.data) && output->close();
+                       output->write_image(spec.format, samples.data, OIIO::AutoStride, samples.step) &&
+                       output->close();
   if (!written || output->has_error())
     throw std::runtime_error(std::string(format) + ": can't be encoded: " + output->geterror());
   return bytes;
+}
+
+std::vector<uint8_t> WriteExr(const cv::Mat& samples, std::span<const std::string> channels,
+                              const char* compression) {
+  OIIO::ImageSpec spec = SpecOf(samples, samples.depth() == CV_16F ? OIIO::TypeHalf : OIIO::TypeFloat);
+  spec.channelnames.assign(channels.begin(), channels.end());
+  spec.alpha_channel = -1;
+  spec["compression"] = compression;
+  return Write("exr", spec, samples);
+}
+
+// Whether a tenth or more of the file is saved, by a few rows spread over the picture. Computed floats, as
+// those of truth, fill their 24 bits: zips would take 30 times as long, to find every row no smaller and
+// store it as it is.
+bool ZipsHelps(const cv::Mat& samples, std::span<const std::string> channels) {
+  cv::Mat rows(std::min(samples.rows, 16), samples.cols, samples.type());
+  for (int i = 0; i < rows.rows; ++i)
+    samples.row((2 * i + 1) * samples.rows / (2 * rows.rows)).copyTo(rows.row(i));
+  return WriteExr(rows, channels, "zips").size() < 0.9 * WriteExr(rows, channels, "none").size();
 }
 
 }  // namespace
 
 const char* Extension(FileFormat format) { return format == FileFormat::kPng ? "png" : "exr"; }
 
-std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits) {
-  if (image.channels() != 1 && image.channels() != 3)
-    throw std::invalid_argument("a PNG of " + std::to_string(image.channels()) + " channels, must be 1 or 3");
+std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits, PngWriter writer) {
   const cv::Mat samples = ToSamples(image, {FileFormat::kPng, bits});
+  if (writer == PngWriter::kIsal) return WritePng(samples);
+  if (image.channels() != 1 && image.channels() != 3)
+    throw std::invalid_argument("a PNG of " + std::to_string(image.channels()) +
+                                " channels, by OpenImageIO must be 1 or 3");
   OIIO::ImageSpec spec = SpecOf(samples, bits == 8 ? OIIO::TypeUInt8 : OIIO::TypeUInt16);
   spec["png:compressionLevel"] = kPngLevel;
   spec["png:filter"] = kPngFilterAverage;
@@ -54,11 +81,8 @@ std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const s
     throw std::invalid_argument("an EXR of " + std::to_string(image.channels()) + " channels with " +
                                 std::to_string(channels.size()) + " names");
   const cv::Mat samples = ToSamples(image, {FileFormat::kExr, bits});
-  OIIO::ImageSpec spec = SpecOf(samples, bits == 16 ? OIIO::TypeHalf : OIIO::TypeFloat);
-  spec.channelnames.assign(channels.begin(), channels.end());
-  spec.alpha_channel = -1;
-  spec["compression"] = "zips";
-  return Write("exr", spec, samples);
+  if (bits == 32 && !ZipsHelps(samples, channels)) return WriteExr(samples, channels, "none");
+  return WriteExr(samples, channels, "zips");
 }
 
 std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality) {
@@ -73,7 +97,7 @@ std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality) {
 }
 
 std::vector<uint8_t> EncodeImage(const cv::Mat& image, Encoding encoding) {
-  if (encoding.format == FileFormat::kPng) return EncodePng(image, encoding.bits);
+  if (encoding.format == FileFormat::kPng) return EncodePng(image, encoding.bits, encoding.png_writer);
   static const std::vector<std::string> grey = {"Y"}, colour = {"R", "G", "B"};
   return EncodeExr(image, encoding.bits, image.channels() == 1 ? grey : colour);
 }

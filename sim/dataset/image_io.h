@@ -53,18 +53,20 @@ const std::vector<std::string>& PictureExtensions();
 // -----------------------------------------------------------------------------------------------------
 
 enum class FileFormat { kPng, kExr };
+enum class PngWriter { kIsal, kOpenImageIo };  // ours (png_write.h), quick; or OpenImageIO's
 
 struct Encoding {
   FileFormat format = FileFormat::kPng;
   int bits = 8;  // PNG: 8 or 16. EXR: 16 (half) or 32 (float)
+  PngWriter png_writer = PngWriter::kIsal;
 };
 
 // The samples that a file of this encoding holds, as CV_8U, CV_16U, CV_16F or CV_32F with the channels of
 // image:
 //   PNG: image in [0, 1] (clamped, NaN is 0) times 255 or 65535, to the nearest integer, ties to the even
 //   one; EXR: NaN is 0, clamped to +-kMaxSample; half to the nearest, ties to even.
-// An image that is a PNG's samples already (CV_8U for 8 bits, CV_16U for 16) is given back as it is.
-// The result is continuous in memory.
+// An image that is its samples already (CV_8U for a PNG of 8 bits, CV_16U for 16, floats within the range for
+// an EXR of 32) is given back as it is, with the same memory; other results are continuous.
 // Throws std::invalid_argument if image is empty or of another type, or if the format has no such bits.
 cv::Mat ToSamples(const cv::Mat& image, Encoding encoding);
 
@@ -75,8 +77,9 @@ cv::Mat FromSamples(const cv::Mat& samples);
 cv::Mat Quantise(const cv::Mat& image, Encoding encoding);
 
 // A whole file as bytes; the same bytes for the same picture, on any day.
-// PNG: 1 or 3 channels, no colour chunk. EXR: zips compression, one name a channel.
-std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits);
+// PNG: 1 to 4 channels (by OpenImageIO 1 or 3), no colour chunk. EXR: one name a channel; compressed by zips,
+// or, of 32 bits, not at all where that would save less than a tenth.
+std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits, PngWriter writer = PngWriter::kIsal);
 std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const std::string> channels);
 
 // A frame: PNG, or EXR with the channels Y or R, G, B.

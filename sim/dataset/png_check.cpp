@@ -3,12 +3,9 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 
 namespace shimmer::dataset {
 namespace {
-
-constexpr std::array<uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 uint32_t BigEndian(std::span<const uint8_t> four) {
   return uint32_t{four[0]} << 24 | uint32_t{four[1]} << 16 | uint32_t{four[2]} << 8 | four[3];
@@ -42,11 +39,12 @@ std::optional<std::string> HeaderDamage(std::span<const uint8_t> data) {
 }  // namespace
 
 bool LooksLikePng(std::span<const uint8_t> bytes) {
-  return bytes.size() >= kSignature.size() && std::equal(kSignature.begin(), kSignature.end(), bytes.begin());
+  return bytes.size() >= kPngSignature.size() &&
+         std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin());
 }
 
 std::optional<std::string> PngDamage(std::span<const uint8_t> bytes) {
-  bytes = bytes.subspan(kSignature.size());
+  bytes = bytes.subspan(kPngSignature.size());
   bool header_seen = false, pixels_seen = false;
   // A chunk: length, type, data, checksum of type and data.
   while (bytes.size() >= 12) {

@@ -2,12 +2,15 @@
 // a library must not print.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 
 namespace shimmer::dataset {
+
+inline constexpr std::array<uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 bool LooksLikePng(std::span<const uint8_t> bytes);  // starts with the signature
 

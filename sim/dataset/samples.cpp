@@ -33,7 +33,20 @@ cv::Mat FromIntegers(const cv::Mat& samples, float top) {
   return image;
 }
 
+// False for NaN.
+bool IsInRange(const cv::Mat& image) {
+  const int row_samples = image.cols * image.channels();
+  for (int y = 0; y < image.rows; ++y) {
+    const float* row = image.ptr<float>(y);
+    int outside = 0;
+    for (int i = 0; i < row_samples; ++i) outside += !(row[i] >= -kMaxSample && row[i] <= kMaxSample);
+    if (outside > 0) return false;
+  }
+  return true;
+}
+
 cv::Mat Finite(const cv::Mat& image) {
+  if (IsInRange(image)) return image;  // nearly always
   cv::Mat finite = image.clone();
   const int row_samples = image.cols * image.channels();
   for (int y = 0; y < finite.rows; ++y) {
@@ -55,7 +68,7 @@ cv::Mat Finite(const cv::Mat& image) {
 cv::Mat ToSamples(const cv::Mat& image, Encoding encoding) {
   const bool png = encoding.format == FileFormat::kPng;
   const int integers = encoding.bits == 8 ? CV_8U : CV_16U;
-  if (png && !image.empty() && image.depth() == integers) return image.isContinuous() ? image : image.clone();
+  if (png && !image.empty() && image.depth() == integers) return image;
   if (image.empty() || image.depth() != CV_32F)
     throw std::invalid_argument("a picture must be float32, or a PNG's own integers, and not empty");
   if (png && encoding.bits == 8) return ToIntegers<uint8_t>(image, CV_8U, 255);

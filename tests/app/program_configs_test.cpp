@@ -131,5 +131,25 @@ TEST(Program, NamesTheHashOfDecodedPixels) {
   }
 }
 
+// output.png_writer changes the files and no pixel of them.
+TEST(Program, WritesPngEitherWay) {
+  for (const int bits : {8, 16}) {
+    const TempFolder folder;
+    folder.Put("c.json", SmallConfig({{"clips", 1}, {"output", {{"bits", bits}}}}));
+    ExpectDone(Generate(folder, "c.json", "usual"));
+    ExpectDone(Generate(folder, "c.json", "isal", {"--set", "output.png_writer=isal"}));
+    ExpectDone(Generate(folder, "c.json", "openimageio", {"--set", "output.png_writer=openimageio"}));
+    EXPECT_EQ(Tree(folder / "usual"), Tree(folder / "isal"));
+    const Json ours = ManifestLines(folder / "isal").at(0).at("files");
+    const Json theirs = ManifestLines(folder / "openimageio").at(0).at("files");
+    ASSERT_EQ(ours.size(), 3u);
+    ASSERT_EQ(theirs.size(), ours.size());
+    for (size_t i = 0; i < ours.size(); ++i) {
+      EXPECT_EQ(ours[i].at("pixels"), theirs[i].at("pixels"));
+      EXPECT_NE(ours[i].at("sha256"), theirs[i].at("sha256"));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace shimmer::app

@@ -100,8 +100,25 @@ TEST_F(Programs, StepTakesAPhotographAndOneSection) {
   EXPECT_EQ(Read("sizes.json").size(), 1u);
 }
 
+TEST_F(Programs, PngMeasuresEveryWriterOnEveryKindOfFrame) {
+  const cv::Mat photograph(40, 50, CV_8UC3, cv::Scalar(10, 200, 90));
+  ASSERT_TRUE(cv::imwrite((folder_ / "photo.png").string(), photograph));
+  for (const std::string pictures : {"", " --picture photo.png photo.png"}) {
+    const Ran ran = Run(SHIMMER_BENCH_PNG, "--quick --json png.json" + pictures);
+    ASSERT_EQ(ran.exit_code, 0) << ran.text;
+    const Json json = Read("png.json");
+    ASSERT_EQ(json.size(), 5u);
+    for (const Json& row : json)
+      for (const char* writer : {"shimmer", "openimageio", "opencv", "libpng"}) {
+        ExpectTime(row[writer]["cpu_ms"]);
+        EXPECT_GT(row[writer]["share"], 0);
+        EXPECT_LT(row[writer]["share"], 1.5);  // tiny frames: headers count
+      }
+  }
+}
+
 TEST_F(Programs, BadArgumentsAreRefusedInALine) {
-  for (const std::string program : {SHIMMER_BENCH_STEP, SHIMMER_BENCH_ACCURACY}) {
+  for (const std::string program : {SHIMMER_BENCH_STEP, SHIMMER_BENCH_ACCURACY, SHIMMER_BENCH_PNG}) {
     EXPECT_NE(Run(program, "--quick --nonsense").exit_code, 0);
     const Ran ran = Run(program, "--quick --picture nowhere.png");
     EXPECT_EQ(ran.exit_code, 1);
@@ -109,6 +126,7 @@ TEST_F(Programs, BadArgumentsAreRefusedInALine) {
   }
   EXPECT_NE(Run(SHIMMER_BENCH_STEP, "--only nothing").exit_code, 0);
   EXPECT_EQ(Run(SHIMMER_BENCH_STEP, "--quick --only sizes --json no/such/folder.json").exit_code, 1);
+  EXPECT_EQ(Run(SHIMMER_BENCH_PNG, "--quick --json no/such/folder.json").exit_code, 1);
   EXPECT_EQ(Run(SHIMMER_BENCH_ACCURACY, "--quick --out no/such/folder").exit_code, 1);
 }
 

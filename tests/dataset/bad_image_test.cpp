@@ -86,8 +86,8 @@ TEST(BadImage, AWrongExtensionIsNoReasonToRefuse) {
 TEST(BadImage, TooLargeIsRefusedBeforeMemoryIsAskedFor) {
   const TempFolder folder;
   // 40000 x 2 for PNG and TIFF; a BMP header that promises 2e9 x 2e9 and has nothing behind it.
-  const std::string error =
-      ErrorOfReading(folder.Put("wide.png", EncodePng(cv::Mat::zeros(2, kMaxSide_px + 1, CV_32F), 8)));
+  const std::string error = ErrorOfReading(folder.Put(
+      "wide.png", EncodePng(cv::Mat::zeros(2, kMaxSide_px + 1, CV_32F), 8, PngWriter::kOpenImageIo)));
   EXPECT_TRUE(Contains(error, "32769 x 2")) << error;
   EXPECT_NO_THROW(ReadImage(folder.Put("just.png", EncodePng(cv::Mat::zeros(1, kMaxSide_px, CV_32F), 8))));
   std::vector<uint8_t> bmp = FileOf(folder, "bmp");

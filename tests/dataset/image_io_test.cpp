@@ -13,8 +13,12 @@ namespace shimmer::dataset {
 namespace {
 
 const std::vector<cv::Size> kSizes = {{1, 1}, {1, 17}, {17, 1}, {31, 33}};
-const std::vector<Encoding> kEncodings = {
-    {FileFormat::kPng, 8}, {FileFormat::kPng, 16}, {FileFormat::kExr, 16}, {FileFormat::kExr, 32}};
+const std::vector<Encoding> kEncodings = {{FileFormat::kPng, 8},
+                                          {FileFormat::kPng, 16},
+                                          {FileFormat::kPng, 8, PngWriter::kOpenImageIo},
+                                          {FileFormat::kPng, 16, PngWriter::kOpenImageIo},
+                                          {FileFormat::kExr, 16},
+                                          {FileFormat::kExr, 32}};
 
 // Written by OpenImageIO itself, to have what our own writers never make.
 std::filesystem::path PutWithOiio(const TempFolder& folder, const std::string& name, OIIO::ImageSpec spec,
@@ -197,20 +201,35 @@ TEST(ImageIo, TheSameBytesAgain) {
   EXPECT_EQ(encode_all(), first);
 }
 
-TEST(ImageIo, ExrIsCompressedByZips) {
+// Half floats always; floats where it helps: planes of one value, and values of 8 bits, but not noise.
+TEST(ImageIo, ExrIsCompressedByZipsWhereItHelps) {
   const TempFolder folder;
-  const auto path = folder.Put("x.exr", EncodeImage(RandomImage({8, 8}, 3, 4), {FileFormat::kExr, 16}));
-  const auto input = OIIO::ImageInput::open(path.string());
-  ASSERT_TRUE(input);
-  EXPECT_EQ(input->spec().get_string_attribute("compression"), "zips");
-  EXPECT_EQ(input->spec().format, OIIO::TypeHalf);
+  const auto compression_of = [&](const cv::Mat& image, int bits) {
+    const auto path = folder.Put("x.exr", EncodeImage(image, {FileFormat::kExr, bits}));
+    EXPECT_TRUE(SameBits(ReadImage(path).pixels, Quantise(image, {FileFormat::kExr, bits})));
+    const auto input = OIIO::ImageInput::open(path.string());
+    EXPECT_EQ(input->spec().format, bits == 16 ? OIIO::TypeHalf : OIIO::TypeFloat);
+    return input->spec().get_string_attribute("compression");
+  };
+  for (const cv::Size size : {cv::Size(64, 1), cv::Size(40, 15), cv::Size(50, 200)}) {
+    const cv::Mat noise = RandomImage(size, 3, 4);
+    cv::Mat one_plane = noise.clone(), few_levels;
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x) one_plane.at<cv::Vec3f>(y, x)[1] = 0;
+    noise.convertTo(few_levels, CV_8U, 10);
+    few_levels.convertTo(few_levels, CV_32F, 1 / 255.0);
+    EXPECT_EQ(compression_of(noise, 16), "zips") << size;
+    EXPECT_EQ(compression_of(noise, 32), "none") << size;
+    EXPECT_EQ(compression_of(one_plane, 32), "zips") << size;
+    EXPECT_EQ(compression_of(few_levels, 32), "zips") << size;
+  }
 }
 
 // Samples need not be made of floats: those of a PNG are written as they are, also from within a larger
 // picture.
 TEST(ImageIo, WritesAPngsOwnSamples) {
-  for (int bits : {8, 16}) {
-    const Encoding encoding{FileFormat::kPng, bits};
+  for (const Encoding& encoding : kEncodings) {
+    if (encoding.format != FileFormat::kPng) continue;
     const cv::Mat samples = ToSamples(RandomImage({21, 13}, 3, 5), encoding);
     for (const cv::Mat& part : {samples, cv::Mat(samples(cv::Rect(3, 2, 9, 7)))}) {
       EXPECT_EQ(EncodeImage(part, encoding), EncodeImage(FromSamples(part), encoding));
@@ -237,12 +256,20 @@ TEST(ImageIo, JpegsForPeopleLookLikeThePicture) {
   EXPECT_THROW(EncodeJpeg(part, 0), std::invalid_argument);
 }
 
+TEST(ImageIo, FromWithinALargerPicture) {
+  const cv::Mat part = RandomImage({21, 13}, 3, 6)(cv::Rect(3, 2, 9, 7));
+  ASSERT_FALSE(part.isContinuous());
+  for (const Encoding encoding : kEncodings)
+    EXPECT_EQ(EncodeImage(part, encoding), EncodeImage(part.clone(), encoding)) << Extension(encoding.format);
+}
+
 TEST(ImageIo, WrongArguments) {
   const cv::Mat image = RandomImage({2, 2}, 3, 5), two = RandomImage({2, 2}, 2, 5);
   const std::vector<std::string> names = {"R", "G"};
   EXPECT_THROW(EncodePng(image, 12), std::invalid_argument);
   EXPECT_THROW(EncodePng(image, 32), std::invalid_argument);
-  EXPECT_THROW(EncodePng(two, 8), std::invalid_argument);
+  EXPECT_THROW(EncodePng(two, 8, PngWriter::kOpenImageIo), std::invalid_argument);
+  EXPECT_THROW(EncodePng(RandomImage({2, 2}, 5, 5), 8), std::invalid_argument);
   EXPECT_THROW(EncodePng(cv::Mat(), 8), std::invalid_argument);
   EXPECT_THROW(EncodePng(cv::Mat(2, 2, CV_8UC3), 16), std::invalid_argument);
   EXPECT_THROW(EncodePng(cv::Mat(2, 2, CV_16UC3), 8), std::invalid_argument);

@@ -20,6 +20,7 @@ using sim::Field;
 enum class Crop { kRandom, kCentre };
 enum class Start { kRandom, kFirst };
 enum class Format { kPng, kExr };
+enum class PngWriter { kIsal, kOpenImageIo };
 using dataset::LayoutKind;
 
 // Where clean frames come from: exactly one of images, video, sequence, drawn.
@@ -86,6 +87,7 @@ struct SourceParams {
 struct OutputParams {
   Format format = Format::kPng;
   int bits = 8;  // png: 8 or 16; exr: 16 (half) or 32 (float)
+  PngWriter png_writer = PngWriter::kIsal;
   LayoutKind layout = LayoutKind::kSequence;
   std::vector<std::string> truth;  // any of "tilt", "sigma"
   std::string name = "shimmer";    // pairs, restormer: the folder that training code calls data_name
@@ -108,6 +110,11 @@ struct OutputParams {
                 .help = "png: 8 or 16; exr: 16 (half) or 32 (float). Not given: png 8, exr 16",
                 .per_clip = false},
           self.bits);
+    visit(Field{.name = "png_writer",
+                .names = {"isal", "openimageio"},
+                .help = "isal: our own, five times as fast; openimageio: OpenImageIO's. Pixels are the same",
+                .per_clip = false},
+          self.png_writer);
     visit(Field{.name = "layout",
                 .names = {"sequence", "pairs", "restormer", "basicsr", "webdataset"},
                 .help = "tree of files (docs/formats.md)",
