@@ -1,5 +1,7 @@
 #include "sim/dataset/picture_cache.h"
 
+#include <algorithm>
+
 namespace shimmer::dataset {
 namespace {
 
@@ -27,6 +29,8 @@ std::shared_ptr<const Picture> PictureCache::Read(const std::filesystem::path& p
     }
     ++statistics_.misses;
     entries_.emplace(key, Entry{promise.get_future().share(), by_age_.end()});
+    ++being_read_;
+    MakeRoom();
   }
   std::shared_ptr<const Picture> picture;
   try {
@@ -35,13 +39,15 @@ std::shared_ptr<const Picture> PictureCache::Read(const std::filesystem::path& p
     {
       const std::lock_guard lock(mutex_);
       entries_.erase(key);
+      --being_read_;
     }
     promise.set_value(nullptr);
     throw;
   }
   promise.set_value(picture);
   const std::lock_guard lock(mutex_);
-  Keep(key, *picture);
+  --being_read_;
+  Keep(key, BytesOf(*picture));
   return picture;
 }
 
@@ -56,9 +62,9 @@ PictureCache::Statistics PictureCache::statistics() const {
   return statistics_;
 }
 
-void PictureCache::Keep(const std::string& path, const Picture& picture) {
+void PictureCache::Keep(const std::string& path, uint64_t bytes) {
   const auto entry = entries_.find(path);
-  const uint64_t bytes = BytesOf(picture);
+  largest_bytes_ = std::max(largest_bytes_, bytes);
   if (bytes > budget_bytes_) {
     entries_.erase(entry);
     return;
@@ -71,7 +77,8 @@ void PictureCache::Keep(const std::string& path, const Picture& picture) {
 }
 
 void PictureCache::MakeRoom() {
-  while (statistics_.held_bytes > budget_bytes_) {
+  const uint64_t read_bytes = std::min(being_read_ * 2 * largest_bytes_, budget_bytes_ / 2);
+  while (!by_age_.empty() && statistics_.held_bytes + read_bytes > budget_bytes_) {
     const auto oldest = entries_.find(by_age_.back());
     statistics_.held_bytes -= oldest->second.bytes;
     ++statistics_.evictions;

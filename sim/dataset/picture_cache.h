@@ -14,8 +14,10 @@
 
 namespace shimmer::dataset {
 
-// For any number of threads. What is kept stays within the budget, the pictures that were asked for last;
-// pictures that are being read or are still in someone's hands come on top.
+// For any number of threads. Keeps the pictures that were asked for last, as many as the budget holds beside
+// those that are being read: each of these is taken for the largest so far, and as much again for its
+// decoder, all together for half of the budget at most. What someone still holds that is no longer kept comes
+// on top.
 class PictureCache {
  public:
   explicit PictureCache(uint64_t budget_bytes) : budget_bytes_(budget_bytes) {}
@@ -41,11 +43,12 @@ class PictureCache {
     uint64_t bytes = 0;
   };
 
-  void Keep(const std::string& path, const Picture& picture);
+  void Keep(const std::string& path, uint64_t bytes);
   void MakeRoom();
 
   mutable std::mutex mutex_;  // of all that follows
   uint64_t budget_bytes_;
+  uint64_t largest_bytes_ = 0, being_read_ = 0;
   std::unordered_map<std::string, Entry> entries_;
   std::list<std::string> by_age_;  // the one that was asked for last first
   Statistics statistics_;
