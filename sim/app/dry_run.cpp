@@ -10,13 +10,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 
 #include "sim/app/job.h"
 #include "sim/app/make_clip.h"
+#include "sim/app/number_text.h"
 #include "sim/app/progress.h"
 #include "sim/dataset/dataset_difference.h"
 #include "sim/dataset/dataset_folder.h"
@@ -120,22 +120,6 @@ void Print(const char* what, const std::string& text) { std::printf("%-9s %s\n",
 
 }  // namespace
 
-std::string Grouped(int64_t number) {
-  std::string text = std::to_string(number);
-  for (auto at = static_cast<int64_t>(text.size()) - 3; at > (number < 0 ? 1 : 0); at -= 3)
-    text.insert(static_cast<size_t>(at), ",");
-  return text;
-}
-
-std::string BytesText(double bytes) {
-  const char* const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
-  size_t unit = 0;
-  for (; bytes >= 999.5 && unit + 1 < std::size(units); ++unit) bytes /= 1000;
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g %s", bytes, units[unit]);
-  return text;
-}
-
 int DryRun(const GenerateOptions& options, const std::atomic<bool>& stop) {
   const Job job = Job::Load(options.config, options.sets, options.out, stop);
   const Config& fixed = job.config.fixed();
@@ -156,17 +140,18 @@ int DryRun(const GenerateOptions& options, const std::atomic<bool>& stop) {
   double files = samples.files / made * clips;
   if (layout.IsTars())
     files = static_cast<double>((pending.size() + layout.clips_per_tar - 1) / layout.clips_per_tar);
-  const std::string from = ", from " + Grouped(samples.clips) + (samples.clips == 1 ? " clip)" : " clips)");
+  const std::string from = ", from " + Counted(samples.clips, "clip") + ")";
   Print("clips", Grouped(static_cast<int64_t>(pending.size())) + " of " + Grouped(fixed.clips));
   Print("frames", Grouped(static_cast<int64_t>(pending.size()) * KeptFrameCount(fixed)));
   Print("files", Grouped(std::llround(files)));
-  Print("bytes", BytesText(bytes) + " (" + BytesText(samples.bytes / made) + " a clip" + from);
+  Print("bytes", BytesText(static_cast<uint64_t>(bytes)) + " (" +
+                     BytesText(static_cast<uint64_t>(samples.bytes / made)) + " a clip" + from);
   char rate[40];
   std::snprintf(rate, sizeof rate, "%.3g", made / std::max(samples.seconds, 1e-9));
   Print("time", DurationText(samples.seconds / made * clips) + " (" + rate + " clips/s on " +
                     std::to_string(threads) + (threads == 1 ? " thread" : " threads") + from);
-  Print("free",
-        BytesText(free.bytes) + (free.files ? ", " + Grouped(std::llround(*free.files)) + " files" : ""));
+  Print("free", BytesText(static_cast<uint64_t>(free.bytes)) +
+                    (free.files ? ", " + Grouped(std::llround(*free.files)) + " files" : ""));
   if (samples.failed > 0)
     Print("warning", Grouped(samples.failed) + " of " + Grouped(samples.clips) +
                          " clips failed, for their sources are bad");
@@ -178,8 +163,9 @@ int DryRun(const GenerateOptions& options, const std::atomic<bool>& stop) {
                          "are not flat)");
   std::fflush(stdout);
   if (bytes > free.bytes)
-    throw std::runtime_error(options.out.string() + ": would take " + BytesText(bytes) + ", but " +
-                             BytesText(free.bytes) + " are free; fewer clips, or another --out");
+    throw std::runtime_error(
+        options.out.string() + ": would take " + BytesText(static_cast<uint64_t>(bytes)) + ", but " +
+        BytesText(static_cast<uint64_t>(free.bytes)) + " are free; fewer clips, or another --out");
   if (free.files && files > *free.files)
     throw std::runtime_error(options.out.string() + ": would take " + Grouped(std::llround(files)) +
                              " files, but " + Grouped(std::llround(*free.files)) +

@@ -12,8 +12,4 @@ namespace shimmer::app {
 // hold it.
 int DryRun(const GenerateOptions& options, const std::atomic<bool>& stop);
 
-// For people: "3,434"; "1.53 TB" (powers of ten).
-std::string Grouped(int64_t number);
-std::string BytesText(double bytes);
-
 }  // namespace shimmer::app

@@ -7,6 +7,7 @@
 #include "sim/app/finish.h"
 #include "sim/app/generate.h"
 #include "sim/app/job.h"
+#include "sim/app/number_text.h"
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/dataset_reader.h"
 #include "sim/dataset/merge.h"
@@ -24,8 +25,6 @@ int64_t ShardCountIn(const std::vector<std::filesystem::path>& folders) {
     }
   return 1;
 }
-
-std::string ClipsText(int64_t clips) { return std::to_string(clips) + (clips == 1 ? " clip" : " clips"); }
 
 }  // namespace
 
@@ -55,10 +54,10 @@ int Merge(const MergeOptions& options) {
       ++missing_of_shard[layout.UnitOf(clip) % shards];
   }
   std::printf("%s: %lld of %s done, %lld failed\n", options.folder.c_str(), static_cast<long long>(done),
-              ClipsText(clips).c_str(), static_cast<long long>(failed));
+              Counted(clips, "clip").c_str(), static_cast<long long>(failed));
   for (const auto& [shard, missing] : missing_of_shard)
     std::printf("shard %lld/%lld: %s missing\n", static_cast<long long>(shard),
-                static_cast<long long>(shards), ClipsText(missing).c_str());
+                static_cast<long long>(shards), Counted(missing, "clip").c_str());
   return done == clips ? kExitDone : kExitFailed;
 }
 

@@ -1,3 +1,4 @@
+#include "sim/dataset/dataset_folder.h"
 #include "sim/app/report.h"
 
 #include <algorithm>
