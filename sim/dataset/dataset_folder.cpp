@@ -1,9 +1,11 @@
 #include "sim/dataset/dataset_folder.h"
 
-#include <unistd.h>
+#include <stdlib.h>
 
+#include <cerrno>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "sim/dataset/dataset_difference.h"
 #include "sim/dataset/files.h"
@@ -16,11 +18,13 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 // A folder without dataset.json must hold nothing but what a kill of ours at the very start may leave.
+// Another shard may begin at this moment: whatever it writes, dataset.json is there first.
 void RefuseForeignFolder(const fs::path& folder) {
   if (fs::exists(folder / kDescriptionName)) return;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with(kStagingName) || name.starts_with(kLockName)) continue;
+    if (fs::exists(folder / kDescriptionName)) return;
     throw std::invalid_argument(folder.string() + ": holds other files (" + name +
                                 ") and no data set; give a new or an empty folder");
   }
@@ -36,14 +40,21 @@ void MakeDatasetFolder(const fs::path& folder) {
 }
 
 void WriteDatasetFile(const fs::path& folder, const std::string& name, std::span<const uint8_t> bytes) {
-  // Named by the process too: shards may do this at the same moment.
-  const fs::path to = folder / name, staging = folder / kStagingName,
-                 beside = staging / (to.filename().string() + "." + std::to_string(getpid()));
-  std::error_code no_folder;  // which writing tells
-  fs::create_directory(staging, no_folder);
-  WriteFileAtomically(to, bytes, beside);
-  std::error_code not_empty;
-  fs::remove(staging, not_empty);
+  const fs::path to = folder / name;
+  std::string staging = (folder / (std::string(kStagingName) + ".XXXXXX")).string();
+  if (!mkdtemp(staging.data()))
+    throw std::runtime_error(to.string() + ": can't be written: " + std::generic_category().message(errno));
+  const auto clear_away = [&] {
+    std::error_code ignored;
+    fs::remove_all(staging, ignored);
+  };
+  try {
+    WriteFileAtomically(to, bytes, staging / to.filename());
+  } catch (...) {
+    clear_away();
+    throw;
+  }
+  clear_away();
 }
 
 Json ReadDescription(const fs::path& folder) {

@@ -267,19 +267,21 @@ void DatasetWriter::Adopt(const fs::path& from, const std::vector<Json>& lines) 
     Note(line.at("clip").get<int64_t>(), line.at("status").get<std::string>() == "done");
 }
 
-// What earlier processes have left behind: their staging, and clips that were moved and not named.
+// What earlier processes have left behind: their staging, and clips that were moved and not named. A shard,
+// beside which others may be at work, clears away its own; what it can't know of is replaced, or waits for
+// the merge.
 void DatasetWriter::CleanUp(const Shard& shard) const {
-  for (const fs::path& staging : ExpandGlob(folder_, std::string(kStagingName) + "*")) {
-    for (const auto& entry : fs::directory_iterator(staging)) {
+  const std::string left = shard.whole() ? std::string(kStagingName) + "*" : staging_.filename().string();
+  for (const fs::path& staging : ExpandGlob(folder_, left)) {
+    std::error_code gone;  // by whoever waits to write here, and had a file to remember
+    for (const auto& entry : fs::directory_iterator(staging, gone)) {
       const std::string name = entry.path().filename().string();
       const bool is_clip = name.size() <= 18 && name.find_first_not_of("0123456789") == std::string::npos;
       const int64_t clip = is_clip ? std::stoll(name) : -1;
-      if (is_clip && !shard.Has(layout_.UnitOf(clip))) continue;  // another shard's, perhaps at work
       if (is_clip && !done_.contains(clip)) Remove(clip);
-      if (is_clip || shard.whole() || staging == staging_) RemoveAll(entry.path());
+      RemoveAll(entry.path());
     }
-    std::error_code not_empty;
-    fs::remove(staging, not_empty);
+    RemoveAll(staging);
   }
 }
 

@@ -87,8 +87,9 @@ void FileHandle::Close() {
   if (close(std::exchange(descriptor_, -1)) < 0 && errno != EINTR) Fail(path_, "can't be closed", errno);
 }
 
-Lock FileHandle::TryLock() {
-  if (Again([&] { return flock(descriptor_, LOCK_EX | LOCK_NB); }) == 0) return Lock::kHeld;
+Lock FileHandle::TryLock(LockKind kind) {
+  const int operation = (kind == LockKind::kShared ? LOCK_SH : LOCK_EX) | LOCK_NB;
+  if (Again([&] { return flock(descriptor_, operation); }) == 0) return Lock::kHeld;
   if (errno == EWOULDBLOCK) return Lock::kTaken;
   if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP) return Lock::kNone;
   Fail(path_, "can't be locked", errno);

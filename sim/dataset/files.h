@@ -13,6 +13,7 @@ namespace shimmer::dataset {
 
 // kNone: this file system has no locks (some cluster file systems).
 enum class Lock { kHeld, kTaken, kNone };
+enum class LockKind { kExclusive, kShared };
 
 // An open file of the system, closed when it goes.
 class FileHandle {
@@ -28,8 +29,8 @@ class FileHandle {
   void Sync();
   void SyncFileSystem();  // all of it that this file or folder lies in
   void Truncate(uint64_t bytes);
-  void Close();    // reports what the destructor would swallow
-  Lock TryLock();  // against other processes and other handles
+  void Close();                                        // reports what the destructor would swallow
+  Lock TryLock(LockKind kind = LockKind::kExclusive);  // against other processes and other handles
 
   size_t ReadSome(std::span<uint8_t> buffer);  // 0 at the end
   void Seek(uint64_t place);

@@ -146,7 +146,7 @@ class FolderLock::Held {
     for (const fs::path& other : others) {
       if (!fs::exists(other)) continue;
       FileHandle file(other, O_RDWR);
-      const Lock lock = file.TryLock();
+      const Lock lock = file.TryLock(LockKind::kShared);  // several may look at the same moment
       const auto named = Holder::Of(other);
       if (lock == Lock::kTaken || (lock == Lock::kNone && named && IsAlive(other, *named, path_)))
         Busy(folder, other);
