@@ -19,13 +19,14 @@ photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-
 training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml)
 # Peers that single tests use: the noise library that the paper names; readers of what we write, a browser too.
 peers=(python3-noise python3-jsonschema python3-pil chromium fonts-dejavu-core)
+cluster=(slurm-wlm munge)  # of which a test starts its own
 
 packages=("${required[@]}")
 for option in "$@"; do
   case "$option" in
     --photos) packages+=("${photos[@]}") ;;
     --training) packages+=("${training[@]}") ;;
-    --all) packages+=("${photos[@]}" "${training[@]}" "${peers[@]}") ;;
+    --all) packages+=("${photos[@]}" "${training[@]}" "${peers[@]}" "${cluster[@]}") ;;
     *) echo "setup.sh: unknown option '$option'; --photos, --training and --all are those there are" >&2; exit 2 ;;
   esac
 done

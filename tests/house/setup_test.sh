@@ -10,4 +10,4 @@ code=$?
 lines=$(wc -l </tmp/shimmer-setup.$$)
 rm -f /tmp/shimmer-setup.$$
 [ $code -eq 2 ] && [ "$lines" -eq 1 ] || { echo "an unknown option gives exit code $code and $lines lines"; exit 1; }
-for script in scripts/*.sh .ci/run; do bash -n "$script" || exit 1; done
+for script in scripts/*.sh scripts/slurm/* .ci/run; do bash -n "$script" || exit 1; done
