@@ -46,6 +46,10 @@ Picture ReadSamples(const std::filesystem::path& path, std::span<const uint8_t> 
 cv::Mat ReadChannels(const std::filesystem::path& path, std::span<const std::string> names,
                      std::span<const uint8_t> bytes = {});
 
+// All channels of a file of ours, in its order, as the numbers that are in it: CV_8U, CV_16U, CV_16F or
+// CV_32F, as ToSamples gives them.
+cv::Mat StoredSamples(const std::filesystem::path& path, std::span<const uint8_t> bytes = {});
+
 // Extensions of the files that ReadImage may read, lower case without dot ("png").
 const std::vector<std::string>& PictureExtensions();
 

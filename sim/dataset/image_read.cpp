@@ -44,15 +44,22 @@ Input Open(const fs::path& path, std::span<const uint8_t> bytes) {
   OIIO::ImageSpec wish;
   wish["oiio:UnassociatedAlpha"] = 1;
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
+  std::unique_ptr<OIIO::ImageInput> input;
   if (bytes.empty()) {
     RequirePicture(path);
+    input = OIIO::ImageInput::open(path.string(), &wish);
   } else {
     if (LooksLikePng(bytes))
       if (const auto damage = PngDamage(bytes)) Fail(path, "damaged picture: PNG " + *damage);
     memory =
         std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<uint8_t*>(bytes.data()), bytes.size());
+    // By its format: given a path, OpenImageIO looks for a file there.
+    const std::string extension = path.extension().string();
+    if (!extension.empty()) input = OIIO::ImageInput::create(extension.substr(1));
+    OIIO::ImageSpec ignored;
+    if (input && !(input->set_ioproxy(memory.get()) && input->open(path.string(), ignored, wish)))
+      Fail(path, "not a picture that can be read (" + input->geterror() + ")");
   }
-  auto input = OIIO::ImageInput::open(path.string(), &wish, memory.get());
   if (!input) Fail(path, "not a picture that can be read (" + OIIO::geterror() + ")");
   if (input->format_name() == std::string("FFmpeg movie")) Fail(path, "a video, must be a picture");
   const OIIO::ImageSpec& spec = input->spec();
@@ -189,6 +196,28 @@ Picture ReadImage(const fs::path& path, std::span<const uint8_t> bytes) {
   Picture picture = ReadSamples(path, bytes);
   if (picture.pixels.depth() != CV_32F) picture.pixels = FromSamples(picture.pixels);
   return picture;
+}
+
+cv::Mat StoredSamples(const fs::path& path, std::span<const uint8_t> bytes) {
+  const Input input = Open(path, bytes);
+  const OIIO::ImageSpec& spec = input->spec();
+  const int depth = spec.format == OIIO::TypeUInt8    ? CV_8U
+                    : spec.format == OIIO::TypeUInt16 ? CV_16U
+                    : spec.format == OIIO::TypeHalf   ? CV_16F
+                    : spec.format == OIIO::TypeFloat  ? CV_32F
+                                                      : -1;
+  if (depth < 0 || !spec.channelformats.empty() || spec.nchannels > CV_CN_MAX)
+    Fail(path, "a kind of picture that no data set has");
+  try {
+    const cv::Mat samples = NewPicture(spec.height, spec.width, CV_MAKETYPE(depth, spec.nchannels));
+    const bool read = input->read_image(0, 0, 0, spec.nchannels, spec.format, samples.data);
+    const std::string message = input->geterror();
+    if (!read || !message.empty())
+      Fail(path, "damaged picture (" + (message.empty() ? "cut off" : message) + ")");
+    return samples;
+  } catch (const cv::Exception& error) {
+    Fail(path, "can't be held in memory (" + error.err + ")");
+  }
 }
 
 cv::Mat ReadChannels(const fs::path& path, std::span<const std::string> names,

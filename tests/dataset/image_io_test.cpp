@@ -278,5 +278,31 @@ TEST(ImageIo, WrongArguments) {
   EXPECT_THROW(EncodeExr(image, 32, names), std::invalid_argument);
 }
 
+// As of a file in a tar, where there is no file of that name.
+TEST(ReadImage, TakesBytesThatAreInMemory) {
+  for (const Encoding encoding : {Encoding{FileFormat::kPng, 8}, Encoding{FileFormat::kExr, 16}}) {
+    const cv::Mat image = RandomImage({9, 4}, 3, 1);
+    const std::string name = std::string("nowhere/a.tar/picture.") + Extension(encoding.format);
+    const std::vector<uint8_t> bytes = EncodeImage(image, encoding);
+    EXPECT_TRUE(SameBits(ReadImage(name, bytes).pixels, Quantise(image, encoding)));
+    EXPECT_TRUE(SameBits(StoredSamples(name, bytes), ToSamples(image, encoding)));
+    const auto half = std::span(bytes).first(bytes.size() / 2);
+    EXPECT_TRUE(Contains(ErrorOf<std::runtime_error>([&] { ReadImage(name, half); }), name));
+    EXPECT_TRUE(Contains(ErrorOf<std::runtime_error>([&] { StoredSamples(name, half); }), name));
+  }
+}
+
+TEST(StoredSamples, AreWhatWasEncoded) {
+  const TempFolder folder;
+  for (const Encoding encoding : {Encoding{FileFormat::kPng, 8}, Encoding{FileFormat::kPng, 16},
+                                  Encoding{FileFormat::kExr, 16}, Encoding{FileFormat::kExr, 32}})
+    for (const int channels : {1, 3}) {
+      const cv::Mat image = RandomImage({9, 4}, channels, 1);
+      const auto path =
+          folder.Put(std::string("a.") + Extension(encoding.format), EncodeImage(image, encoding));
+      EXPECT_TRUE(SameBits(StoredSamples(path), ToSamples(image, encoding)));
+    }
+}
+
 }  // namespace
 }  // namespace shimmer::dataset
