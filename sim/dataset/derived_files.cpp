@@ -7,6 +7,7 @@
 #include "sim/dataset/files.h"
 #include "sim/dataset/numbered_name.h"
 #include "sim/dataset/restormer_options.h"
+#include "sim/dataset/tar.h"
 
 namespace shimmer::dataset {
 namespace {
@@ -72,16 +73,21 @@ std::map<std::string, std::string> OfBasicsr(const DatasetReader& set, const Lay
 }
 
 std::map<std::string, std::string> OfTars(const DatasetReader& set, const Layout& layout) {
-  std::map<int64_t, int64_t> clips_of_tar;
-  for (const int64_t clip : set.clips()) ++clips_of_tar[layout.UnitOf(clip)];
-  if (clips_of_tar.empty()) return {};
+  struct Tar {
+    int64_t clips = 0, members_bytes = 0;
+  };
+  std::map<int64_t, Tar> tars;
+  ForEachDone(set, [&](int64_t clip, const Json& line) {
+    Tar& tar = tars[layout.UnitOf(clip)];
+    ++tar.clips;
+    for (const StoredFile& file : FilesOfLine(line)) tar.members_bytes += TarBytes(file.bytes);
+  });
+  if (tars.empty()) return {};
   Json list = Json::array();
-  for (const auto& [unit, clips] : clips_of_tar) {
-    const fs::path tar = layout.TarPath(unit);
-    std::error_code absent;
-    const auto bytes = fs::file_size(set.folder() / tar, absent);
-    list.push_back({{"url", tar.filename().string()}, {"nsamples", clips}, {"filesize", absent ? 0 : bytes}});
-  }
+  for (const auto& [unit, tar] : tars)
+    list.push_back({{"url", fs::path(layout.TarPath(unit)).filename().string()},
+                    {"nsamples", tar.clips},
+                    {"filesize", WholeTarBytes(tar.members_bytes)}});
   const Json index = {{"wids_version", 1}, {"shardlist", std::move(list)}};
   return {{fs::path(layout.TarPath(0)).parent_path() / "index.json", index.dump(1) + "\n"}};
 }
@@ -107,6 +113,25 @@ std::map<std::string, std::string> DerivedFiles(const DatasetReader& set, const 
       break;
   }
   return {};
+}
+
+bool IsDerivedPath(const std::string& path, const Layout& layout) {
+  const fs::path whole(path);
+  const std::string name = whole.filename().string(), folder = whole.parent_path().string();
+  switch (layout.kind) {
+    case LayoutKind::kRestormer:
+      return (name == "meta_info.txt" &&
+              (folder == layout.name + "/train" || folder == layout.name + "/test")) ||
+             path == layout.name + "/restormer.yml";
+    case LayoutKind::kBasicsr:
+      return name == "meta_info.txt" && (folder.empty() || NumberedName{"part", 3, ""}.NumberOf(folder));
+    case LayoutKind::kWebdataset:
+      return path == (fs::path(layout.TarPath(0)).parent_path() / "index.json");
+    case LayoutKind::kSequence:
+    case LayoutKind::kPairs:
+      break;
+  }
+  return false;
 }
 
 void WriteDerivedFiles(const DatasetReader& set, const Layout& layout) {

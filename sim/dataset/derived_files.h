@@ -14,8 +14,12 @@
 
 namespace shimmer::dataset {
 
-// By path, relative to the data set's folder.
+// By path, relative to the data set's folder. Throws std::runtime_error where a line of the manifest is
+// damaged.
 std::map<std::string, std::string> DerivedFiles(const DatasetReader& set, const Layout& layout);
+
+// Whether a file of such a name may be one of them, in a set of any clips.
+bool IsDerivedPath(const std::string& path, const Layout& layout);
 
 // Writes those that are not there or say something else.
 void WriteDerivedFiles(const DatasetReader& set, const Layout& layout);

@@ -148,10 +148,20 @@ void WriteFileAtomically(const fs::path& path, std::span<const uint8_t> bytes, f
   SyncFolder(path.parent_path());
 }
 
-void ReadPieces(const fs::path& path, const std::function<void(std::span<const uint8_t>)>& piece) {
+int64_t ReadPieces(const fs::path& path, const std::function<void(std::span<const uint8_t>)>& piece,
+                   int64_t first, int64_t most_bytes) {
   FileHandle file(path, O_RDONLY);
-  std::vector<uint8_t> buffer(1 << 18);
-  while (const size_t got = file.ReadSome(buffer)) piece({buffer.data(), got});
+  if (first != 0) file.Seek(static_cast<uint64_t>(first));
+  std::vector<uint8_t> buffer(static_cast<size_t>(std::min<int64_t>(most_bytes, 1 << 18)));
+  int64_t bytes = 0;
+  while (bytes < most_bytes) {
+    const auto most = static_cast<size_t>(std::min<int64_t>(most_bytes - bytes, std::ssize(buffer)));
+    const size_t got = file.ReadSome(std::span(buffer).first(most));
+    if (got == 0) break;
+    piece({buffer.data(), got});
+    bytes += static_cast<int64_t>(got);
+  }
+  return bytes;
 }
 
 std::vector<uint8_t> ReadFile(const fs::path& path) {

@@ -64,8 +64,10 @@ std::vector<uint8_t> ReadFile(const std::filesystem::path& path);
 // Bytes first .. first + bytes - 1, or fewer where the file ends before.
 std::vector<uint8_t> ReadPart(const std::filesystem::path& path, uint64_t first, size_t bytes);
 std::vector<uint8_t> ReadStart(const std::filesystem::path& path, size_t most_bytes);
-void ReadPieces(const std::filesystem::path& path,
-                const std::function<void(std::span<const uint8_t>)>& piece);
+// Piece by piece, from byte `first` on, most_bytes at most; gives how many there were.
+int64_t ReadPieces(const std::filesystem::path& path,
+                   const std::function<void(std::span<const uint8_t>)>& piece, int64_t first = 0,
+                   int64_t most_bytes = INT64_MAX);
 
 // Replaces `to` where it is a file. Durable after SyncFolder of both parents.
 void Rename(const std::filesystem::path& from, const std::filesystem::path& to);

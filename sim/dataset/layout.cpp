@@ -34,6 +34,17 @@ std::string ThousandOf(int64_t clip) {
   return thousand == 0 ? "clips" : "clips." + Padded(thousand, 3);
 }
 
+// The first number in a name: 7 of "0007.png", 1 of "part001".
+std::optional<int64_t> NumberIn(const std::string& name) {
+  constexpr size_t kMostDigits = 15;
+  const size_t first = name.find_first_of("0123456789");
+  if (first == std::string::npos) return {};
+  const size_t end = name.find_first_not_of("0123456789", first);
+  const std::string digits = name.substr(first, end == std::string::npos ? end : end - first);
+  if (digits.size() > kMostDigits) return {};
+  return std::stoll(digits);
+}
+
 std::string PartOf(int64_t clip) {
   const int64_t part = clip / kClipsPerFolder;
   return part == 0 ? "" : "part" + Padded(part, 3) + "/";
@@ -71,6 +82,49 @@ std::string Layout::Path(FrameKind frame_kind, int64_t clip, int64_t frame) cons
   const std::string half = IsTestClip(clip, test_fraction) ? "test" : "train";
   return name + "/" + half + "/" + folder + "/" + Padded(clip * frames_per_clip + frame, digits) + "." +
          extension;
+}
+
+std::optional<Layout::Place> Layout::PlaceOf(const std::string& path) const {
+  const auto frame_kind = KindOfPath(path);
+  if (!frame_kind) return {};
+  const std::filesystem::path whole(path);
+  const auto number = NumberIn(whole.filename().string());
+  if (!number) return {};
+  Place place{*frame_kind, 0, *number};
+  std::optional<int64_t> clip;
+  switch (kind) {
+    case LayoutKind::kSequence:  // clips.001/001234/turb/0007.png
+      clip = NumberIn(whole.parent_path().parent_path().filename().string());
+      break;
+    case LayoutKind::kBasicsr: {  // part001/lq/234/00000007.png
+      clip = NumberIn(whole.parent_path().filename().string());
+      const std::string part = whole.begin()->string();
+      if (const auto thousand = part.starts_with("part") ? NumberIn(part) : std::nullopt; clip && thousand)
+        *clip += *thousand * kClipsPerFolder;
+      break;
+    }
+    case LayoutKind::kWebdataset: {  // shards/000012.tar/000123.turb.0000.png
+      const std::string name = whole.filename().string();
+      clip = NumberIn(name.substr(0, name.find('.')));
+      const auto frame = NumberIn(whole.stem().extension().string());
+      if (!frame) return {};
+      place.frame = *frame;
+      break;
+    }
+    case LayoutKind::kPairs:
+    case LayoutKind::kRestormer:
+      clip = *number / frames_per_clip;
+      place.frame = *number % frames_per_clip;
+      break;
+  }
+  if (!clip) return {};
+  place.clip = *clip;
+  return Path(place.kind, place.clip, place.frame) == path ? std::optional(place) : std::nullopt;
+}
+
+std::optional<int64_t> Layout::UnitOfTar(const std::string& path) const {
+  const auto unit = IsTars() ? NumberIn(std::filesystem::path(path).filename().string()) : std::nullopt;
+  return unit && TarPath(*unit) == path ? unit : std::nullopt;
 }
 
 std::vector<std::string> Layout::ClipFolders(int64_t clip) const {

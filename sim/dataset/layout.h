@@ -50,6 +50,14 @@ struct Layout {
   // .. frames_per_clip - 1.
   std::string Path(FrameKind kind, int64_t clip, int64_t frame) const;
 
+  // The other way: so that Path gives this path. Nothing for any other path; a frame may be one that no clip
+  // has.
+  struct Place {
+    FrameKind kind;
+    int64_t clip, frame;
+  };
+  std::optional<Place> PlaceOf(const std::string& path) const;
+
   // The folders that hold files of this clip and nothing else; none where there are no such folders.
   std::vector<std::string> ClipFolders(int64_t clip) const;
 
@@ -57,6 +65,7 @@ struct Layout {
   int64_t ClipsPerUnit() const { return IsTars() ? clips_per_tar : 1; }
   int64_t UnitOf(int64_t clip) const { return clip / ClipsPerUnit(); }
   std::string TarPath(int64_t unit) const;
+  std::optional<int64_t> UnitOfTar(const std::string& path) const;  // so that TarPath gives this path
 };
 
 inline constexpr int64_t kClipsPerFolder = 1000;  // of sequence and basicsr

@@ -76,6 +76,40 @@ TEST(Layout, AKindIsKnownByItsPath) {
     EXPECT_FALSE(KindOfPath(path)) << path;
 }
 
+TEST(Layout, APathLeadsBackToItsClip) {
+  for (const LayoutKind kind : {LayoutKind::kSequence, LayoutKind::kPairs, LayoutKind::kRestormer,
+                                LayoutKind::kBasicsr, LayoutKind::kWebdataset})
+    for (const char* name : {"set", "gt", "turb", "part001"}) {
+      const Layout layout{.kind = kind,
+                          .name = name,
+                          .test_fraction = 0.5,
+                          .frames_per_clip = 3,
+                          .digits = 9,
+                          .clips_per_tar = 7};
+      for (const int64_t clip : {0, 7, 999, 1000, 98765, 12345678})
+        for (const int64_t frame : {0, 2})
+          for (const FrameKind frame_kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth}) {
+            const auto place = layout.PlaceOf(layout.Path(frame_kind, clip, frame));
+            ASSERT_TRUE(place) << layout.Path(frame_kind, clip, frame);
+            EXPECT_EQ(place->kind, frame_kind);
+            EXPECT_EQ(place->clip, clip);
+            EXPECT_EQ(place->frame, frame);
+          }
+      const std::string path = layout.Path(FrameKind::kTurb, 1000, 1);
+      for (const std::string& other : {"x" + path, path + "x", "sub/" + path, path.substr(1), "0" + path,
+                                       path.substr(0, path.size() - 4) + ".exr"})
+        EXPECT_FALSE(layout.PlaceOf(other)) << other;
+      for (const char* other :
+           {"", "7", "turb/7", "clips/000007", "dataset.json", "turb/99999999999999999999.png"})
+        EXPECT_FALSE(layout.PlaceOf(other)) << other;
+    }
+  const Layout tars{.kind = LayoutKind::kWebdataset, .clips_per_tar = 7};
+  EXPECT_EQ(tars.UnitOfTar("shards/001234.tar"), 1234);
+  for (const char* other : {"shards/1234.tar", "shards/index.json", "001234.tar", "shards/a/001234.tar"})
+    EXPECT_FALSE(tars.UnitOfTar(other)) << other;
+  EXPECT_FALSE(Layout{}.UnitOfTar("shards/001234.tar"));
+}
+
 TEST(Layout, TheShareOfTestClipsIsExact) {
   for (const double fraction : {0., 0.01, 0.02, 0.1, 0.29, 0.3, 1. / 3, 0.5, 0.57, 0.7, 0.99, 1.}) {
     int64_t test_clips = 0;

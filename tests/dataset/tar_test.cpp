@@ -37,8 +37,9 @@ TEST(Tar, MembersLieWhereItSaysTheyDo) {
               ReadFile(members[i].place));
     bytes += TarBytes(members[i].bytes);
   }
-  EXPECT_GE(fs::file_size(tar), static_cast<uintmax_t>(bytes));
-  EXPECT_LE(fs::file_size(tar), static_cast<uintmax_t>(bytes + kTarEndBytes));
+  EXPECT_EQ(static_cast<int64_t>(fs::file_size(tar)), WholeTarBytes(bytes));
+  EXPECT_LE(WholeTarBytes(bytes), bytes + kTarEndBytes);
+  EXPECT_EQ(FirstTarMember(tar), members[0].name);
 }
 
 TEST(Tar, TheSameMembersGiveTheSameBytes) {
@@ -78,6 +79,52 @@ TEST(Tar, WhatIsWrong) {
   WriteTar(folder / "whole.tar", members);
   const std::vector<uint8_t> bytes = ReadFile(folder / "whole.tar");
   EXPECT_THROW(TarEntries(folder.Put("cut.tar", std::span(bytes).first(60'000))), std::runtime_error);
+}
+
+// A tar of Members, and its bytes.
+struct Written {
+  TempFolder folder;
+  fs::path tar;
+  std::vector<TarEntry> members;
+  std::vector<uint8_t> whole;
+
+  Written() : tar(folder / "a.tar") {
+    WriteTar(tar, Members(folder));
+    members = TarEntries(tar);
+    whole = ReadFile(tar);
+  }
+};
+
+TEST(TarDamage, IsFoundWhereNoMemberIs) {
+  const Written written;
+  EXPECT_EQ(TarDamage(written.tar, written.members), std::nullopt);
+  const auto damage_at = [&](size_t place) {
+    std::vector<uint8_t> bytes = written.whole;
+    bytes.at(place) ^= 4;
+    WriteFile(written.tar, bytes);
+    return TarDamage(written.tar, written.members);
+  };
+  // The first header's name and checksum, and that of the second member, of one byte; what fills up its
+  // block; the blocks at the end.
+  for (const size_t place :
+       {size_t{0}, size_t{150}, size_t{512 + 150}, size_t{1025}, size_t{1535}, written.whole.size() - 1})
+    EXPECT_EQ(damage_at(place), static_cast<int64_t>(place));
+  EXPECT_EQ(damage_at(1024), std::nullopt);  // the member's own
+  damage_at(150);
+  EXPECT_EQ(FirstTarMember(written.tar), std::nullopt);
+}
+
+TEST(TarDamage, IsALengthThatItHadNot) {
+  const Written written;
+  const auto length = static_cast<int64_t>(written.whole.size());
+  std::vector<uint8_t> bytes = written.whole;
+  bytes.push_back(0);
+  WriteFile(written.tar, bytes);
+  EXPECT_EQ(TarDamage(written.tar, written.members), length);
+  WriteFile(written.tar, std::span(written.whole).first(written.whole.size() - 1));
+  EXPECT_EQ(TarDamage(written.tar, written.members), length - 1);
+  WriteFile(written.tar, std::span(written.whole).first(1000));
+  EXPECT_THROW(TarDamage(written.tar, written.members), std::runtime_error);
 }
 
 }  // namespace
