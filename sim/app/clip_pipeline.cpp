@@ -98,4 +98,21 @@ void MakeClips(const Job& job, std::span<const int64_t> clips, const dataset::Da
   if (error) std::rethrow_exception(error);
 }
 
+void MakeClipsDurably(const Job& job, std::span<const int64_t> clips, dataset::DatasetWriter& writer,
+                      PipelineLimits limits, const std::atomic<bool>& stop,
+                      const std::function<void(MadeClip)>& keep) {
+  std::exception_ptr error;
+  try {
+    MakeClips(job, clips, writer, limits, stop, keep);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  try {
+    writer.Flush();
+  } catch (...) {
+    if (!error) error = std::current_exception();
+  }
+  if (error) std::rethrow_exception(error);
+}
+
 }  // namespace shimmer::app

@@ -32,4 +32,10 @@ void MakeClips(const Job& job, std::span<const int64_t> clips, const dataset::Da
                PipelineLimits limits, const std::atomic<bool>& stop,
                const std::function<void(MadeClip)>& keep);
 
+// The same, and all that keep has given to the writer is durable when it returns or throws: what is finished
+// stays, whatever ended it.
+void MakeClipsDurably(const Job& job, std::span<const int64_t> clips, dataset::DatasetWriter& writer,
+                      PipelineLimits limits, const std::atomic<bool>& stop,
+                      const std::function<void(MadeClip)>& keep);
+
 }  // namespace shimmer::app

@@ -12,6 +12,7 @@
 #include "sim/app/preview.h"
 #include "sim/app/report.h"
 #include "sim/app/shard_option.h"
+#include "sim/app/verify.h"
 
 namespace shimmer::app {
 namespace {
@@ -101,6 +102,18 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*lis
   merge_command->add_option("DIR", merge.folder, "folder of the data set")->required();
   merge_command->add_option("FROM", merge.from, "folders of shards (default: they wrote to DIR)");
 
+  VerifyOptions verify;
+  CLI::App* verify_command = app.add_subcommand(
+      "verify", "recount, hash and decode a data set: is every clip whole, and nothing else there?");
+  verify_command->add_option("DIR", verify.folder, "folder of the data set")->required();
+  verify_command->add_flag("--repair", verify.repair,
+                           "make again what is missing or wrong; move what is too much to DIR/.surplus");
+  verify_command->add_option("--config-folder", verify.config_folder,
+                             "where relative sources are looked up (default: where the config file lay)");
+  verify_command->add_option("--threads", verify.threads, "number of threads (default: all)")
+      ->check(CLI::Range(1, 4096));
+  verify_command->add_flag("--quiet", verify.quiet, "only the summary");
+
   std::filesystem::path plan_config;
   std::vector<std::string> plan_sets;
   int64_t plan_clip = 0;
@@ -134,6 +147,7 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*lis
     app.parse(argc, argv);
     if (*generate_command) return config_path = &generate.config, Generate(generate, listen());
     if (*merge_command) return Merge(merge);
+    if (*verify_command) return Verify(verify, listen());
     if (*plan_command) config_path = &plan_config, Print(PlanText(plan_config, plan_sets, plan_clip));
     if (*preview_command) Preview(preview);
     if (*report_command) Print(WriteReport(report_folder).string() + "\n");

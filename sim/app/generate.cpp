@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "sim/app/dry_run.h"
 #include "sim/app/finish.h"
 #include "sim/app/job.h"
+#include "sim/app/origin.h"
 #include "sim/app/progress.h"
 
 namespace shimmer::app {
@@ -82,6 +82,7 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   const std::unique_ptr<dataset::DatasetWriter> writer = OpenFolder(options, job, stop);
   if (!writer) return kExitInterrupted;
   job.sources.Remember(options.out);
+  if (job.sources.kind() != SourceKind::kDrawn) NoteConfigFolder(options.out, options.config.parent_path());
   const std::vector<int64_t> pending =
       dataset::PendingClips(writer->layout(), wanted, writer->done(), writer->failed());
 
@@ -102,19 +103,9 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
     }
     progress.Clip(failed);
   };
-  std::exception_ptr error;
-  try {
-    MakeClips(job, pending, *writer, {.threads = threads, .clips_at_once = memory.clips_at_once}, stop, keep);
-  } catch (...) {
-    error = std::current_exception();
-  }
+  MakeClipsDurably(job, pending, *writer, {.threads = threads, .clips_at_once = memory.clips_at_once}, stop,
+                   keep);
   progress.End();
-  try {
-    writer->Flush();  // what is finished stays, whatever ended the run
-  } catch (...) {
-    if (!error) error = std::current_exception();
-  }
-  if (error) std::rethrow_exception(error);
 
   const Count count = CountClips(*writer, clips, options.shard);
   if (options.shard.whole() && !stop && !(pending.empty() && IsFinished(options.out)))

@@ -2,6 +2,7 @@
 
 #include "sim/app/clean_frames.h"
 #include "sim/app/clip_size.h"
+#include "sim/dataset/dataset_difference.h"
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/files.h"
 
@@ -40,6 +41,13 @@ dataset::Layout LayoutOfDataset(const std::filesystem::path& folder, const Json&
   }
 }
 
+dataset::Layout LayoutOfConfig(const ConfigFile& config) {
+  const Config& fixed = config.fixed();
+  const bool still = fixed.source.video.empty() && fixed.source.sequence.empty();
+  return LayoutOf(fixed.output, dataset::PairDigits(fixed.clips, fixed.output.frames_per_clip),
+                  ClipsPerTar(config, still));
+}
+
 ConfigFile LoadConfig(const std::filesystem::path& path, std::span<const std::string> sets) {
   std::vector<uint8_t> bytes;
   try {
@@ -57,6 +65,23 @@ Job Job::Load(const std::filesystem::path& config_path, std::span<const std::str
   return {std::move(config), std::move(sources)};
 }
 
+Job Job::OfDataset(const std::filesystem::path& folder, const Json& description,
+                   const std::filesystem::path& config_folder) {
+  ConfigFile config = ConfigOfDataset(folder, description);
+  SourceList sources;
+  try {
+    sources = SourceList::Find(config.fixed().source, config_folder, folder);
+  } catch (const ConfigError& error) {
+    throw std::runtime_error(folder.string() + ": can't be made again: " + error.pointer() + ": " +
+                             error.what());
+  }
+  Job job{std::move(config), std::move(sources)};
+  const std::vector<std::string> differences = dataset::Differences(description, job.Description());
+  if (!differences.empty())
+    throw std::runtime_error(folder.string() + ": can't be made again: " + dataset::InOneLine(differences));
+  return job;
+}
+
 Json Job::Description() const {
   Json description = {{"config", config.resolved()},
                       {"config_hash", config.Hash()},
@@ -69,11 +94,7 @@ Json Job::Description() const {
   return description;
 }
 
-dataset::Layout Job::Layout() const {
-  const Config& fixed = config.fixed();
-  return LayoutOf(fixed.output, dataset::PairDigits(fixed.clips, fixed.output.frames_per_clip),
-                  ClipsPerTar(config, sources.still()));
-}
+dataset::Layout Job::Layout() const { return LayoutOfConfig(config); }
 
 int KeptFrameCount(const Config& config) {
   const bool pairs =

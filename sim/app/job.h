@@ -27,6 +27,9 @@ ConfigFile LoadConfig(const std::filesystem::path& path, std::span<const std::st
 ConfigFile ConfigOfDataset(const std::filesystem::path& folder, const Json& description);
 dataset::Layout LayoutOfDataset(const std::filesystem::path& folder, const Json& description);
 
+// Where the files of a config's clips lie.
+dataset::Layout LayoutOfConfig(const ConfigFile& config);
+
 // Of decoded pictures, unless told otherwise (PictureCache::SetBudget).
 inline constexpr uint64_t kPictureCacheBytes = 512 << 20;
 
@@ -41,6 +44,12 @@ struct Job {
   // once stop is set.
   static Job Load(const std::filesystem::path& config_path, std::span<const std::string> sets,
                   const std::filesystem::path& out, const std::atomic<bool>& stop = dataset::kNeverStop);
+
+  // Of a data set, to make clips of it again: the config that its dataset.json holds, and the sources that it
+  // finds now, relative ones from config_folder. Throws std::runtime_error where there are none, and where
+  // this would make another data set (each difference is named).
+  static Job OfDataset(const std::filesystem::path& folder, const Json& description,
+                       const std::filesystem::path& config_folder);
 
   // What dataset.json says: config, its hash, sources with hashes, engine, version.
   Json Description() const;

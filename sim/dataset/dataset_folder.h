@@ -11,6 +11,7 @@ namespace shimmer::dataset {
 
 inline constexpr const char* kDescriptionName = "dataset.json";
 inline constexpr const char* kManifestName = "manifest.jsonl";
+inline constexpr const char* kOriginName = ".origin.json";  // where its config lay
 inline constexpr const char* kStagingName = ".staging";  // what is being written; of a shard with its suffix
 
 // Makes the folder if it is not there. Throws std::invalid_argument if it is a file, or holds files but no

@@ -21,8 +21,10 @@ const StoredFile& FileOfFrame(const std::vector<StoredFile>& files, int64_t clip
 
 }  // namespace
 
-DatasetReader::DatasetReader(fs::path folder)
-    : folder_(std::move(folder)), description_(ReadDescription(folder_)), manifest_(ManifestsIn(folder_)) {}
+DatasetReader::DatasetReader(fs::path folder, const Manifest::Damaged& damaged)
+    : folder_(std::move(folder)),
+      description_(ReadDescription(folder_)),
+      manifest_(ManifestsIn(folder_), damaged) {}
 
 ClipFiles DatasetReader::Files(int64_t clip) const {
   if (!clips().contains(clip))

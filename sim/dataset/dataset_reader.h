@@ -22,7 +22,8 @@ struct ClipFiles {
 
 class DatasetReader {
  public:
-  explicit DatasetReader(std::filesystem::path folder);
+  // damaged: Manifest's.
+  explicit DatasetReader(std::filesystem::path folder, const Manifest::Damaged& damaged = {});
 
   const Json& description() const { return description_; }  // dataset.json
   const std::set<int64_t>& clips() const { return manifest_.done(); }

@@ -88,7 +88,7 @@ bool IsAlive(const fs::path& file, const Holder& holder, const fs::path& just_wr
   const std::string what =
       name == kLockName ? "this data set" : "shard " + name.substr(std::string(kLockName).size() + 1);
   throw FolderBusy(folder.string() + ": " + who + " writes to " + what +
-                   "; wait for it to end (--wait does)");
+                   "; wait for it to end (generate --wait does)");
 }
 
 }  // namespace

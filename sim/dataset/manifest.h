@@ -58,6 +58,8 @@ class Manifest {
   const std::set<int64_t>& done() const { return done_; }
   const std::set<int64_t>& failed() const { return failed_; }
 
+  const std::vector<std::filesystem::path>& paths() const { return paths_; }
+
   // Of one of the files: without a torn last line.
   uint64_t whole_bytes(const std::filesystem::path& path) const;
 

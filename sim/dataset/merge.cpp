@@ -44,13 +44,13 @@ void Adopt(DatasetWriter& writer, const fs::path& from) {
   add();
 }
 
-void UniteManifests(const fs::path& folder) {
+void UniteManifests(const fs::path& folder, const Manifest::Damaged& damaged) {
   const FolderLock lock(folder, {});
   const std::vector<fs::path> manifests = ManifestsIn(folder);
   {
     const fs::path beside = folder / kStagingName / kManifestName;
     MakeFolders(beside.parent_path());
-    const Manifest all(manifests);
+    const Manifest all(manifests, damaged);
     RemoveAll(beside);
     {
       ManifestWriter united(beside, 0);

@@ -14,8 +14,8 @@ namespace shimmer::dataset {
 void Adopt(DatasetWriter& writer, const std::filesystem::path& from);
 
 // Makes one manifest of manifest.jsonl and those of the shards: the line of each clip that counts, in the
-// order of the clips. What shards leave (their manifests, locks and staging) goes. Throws FolderBusy while a
-// process writes to the folder.
-void UniteManifests(const std::filesystem::path& folder);
+// order of the clips. What shards leave (their manifests, locks and staging) goes. damaged: Manifest's; such
+// lines are left out. Throws FolderBusy while a process writes to the folder.
+void UniteManifests(const std::filesystem::path& folder, const Manifest::Damaged& damaged = {});
 
 }  // namespace shimmer::dataset

@@ -1,0 +1,85 @@
+#include "sim/app/verify.h"
+
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include "sim/app/generate.h"
+#include "sim/app/number_text.h"
+#include "sim/app/repair.h"
+#include "sim/dataset/dataset_folder.h"
+#include "sim/dataset/folder_lock.h"
+
+namespace shimmer::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMostShown = 500;
+
+// A folder that can't be written to has no writer: an archive may be verified too.
+std::unique_ptr<dataset::FolderLock> LockFolder(const fs::path& folder) {
+  try {
+    return std::make_unique<dataset::FolderLock>(folder, dataset::Shard{});
+  } catch (const dataset::FolderBusy&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    if (access(folder.c_str(), W_OK) == 0) throw;
+    return nullptr;
+  }
+}
+
+// One line, whatever bytes a file's name has.
+void PrintLine(std::string line) {
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
+  std::printf("%s\n", line.c_str());
+}
+
+void Print(const VerifyOptions& options, const VerifiedSet& found) {
+  const size_t shown = options.quiet ? 0 : std::min(found.problems.size(), kMostShown);
+  for (size_t i = 0; i < shown; ++i) PrintLine(found.problems[i].name + ": " + found.problems[i].text);
+  if (shown > 0 && shown < found.problems.size())
+    PrintLine("and " + Grouped(std::ssize(found.problems) - static_cast<int64_t>(shown)) + " more");
+  const std::string failed = found.failed > 0 ? Grouped(found.failed) + " failed, " : "";
+  PrintLine(options.folder.string() + ": " + Grouped(found.whole) + " of " + Counted(found.clips, "clip") +
+            " whole, " + failed + Counted(found.files, "file") + ", " +
+            Counted(std::ssize(found.problems), "problem"));
+}
+
+}  // namespace
+
+int Verify(const VerifyOptions& options, const std::atomic<bool>& stop) {
+  if (!fs::exists(options.folder / dataset::kDescriptionName))
+    throw std::invalid_argument(options.folder.string() + ": not a data set (no " +
+                                dataset::kDescriptionName + " in it)");
+  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const auto verify = [&](const VerifiedSet* before) {
+    const auto lock = LockFolder(options.folder);
+    return VerifySet(options.folder, before, threads, options.quiet, stop);
+  };
+  VerifiedSet found = verify(nullptr);
+  if (stop) return kExitInterrupted;
+  Print(options, found);
+  if (options.repair && !found.problems.empty()) {
+    std::fflush(stdout);  // before what may be said on stderr
+    const Repaired repaired =
+        Repair(options.folder, found, options.config_folder, threads, options.quiet, stop);
+    for (const auto* lines : {&repaired.moved, &repaired.errors})
+      for (const std::string& line : *lines)
+        if (!options.quiet) PrintLine(line);
+    PrintLine(options.folder.string() + ": " + Counted(repaired.clips_made, "clip") + " made again, " +
+              Counted(std::ssize(repaired.moved), "file") + " moved to " + dataset::kSurplusName);
+    if (stop) return kExitInterrupted;
+    found = verify(&found);
+    if (stop) return kExitInterrupted;
+    Print(options, found);
+  }
+  return found.problems.empty() && found.failed == 0 ? kExitDone : kExitFailed;
+}
+
+}  // namespace shimmer::app
