@@ -37,7 +37,7 @@ std::string BytesText(uint64_t bytes) {
   constexpr const char* kUnits[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
   double number = static_cast<double>(bytes);
   size_t unit = 0;
-  for (; number >= 1000 && unit + 1 < std::size(kUnits); number /= 1000) ++unit;
+  for (; number >= 999.5 && unit + 1 < std::size(kUnits); number /= 1000) ++unit;
   return ShortText(number) + " " + kUnits[unit];
 }
 

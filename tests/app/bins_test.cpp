@@ -152,6 +152,7 @@ TEST(NumberTexts, AreShort) {
   EXPECT_EQ(Counted(1, "clip"), "1 clip");
   EXPECT_EQ(Counted(0, "clip"), "0 clips");
   EXPECT_EQ(BytesText(999), "999 bytes");
+  EXPECT_EQ(BytesText(999'999), "1 MB");  // not 1000 kB
   EXPECT_EQ(BytesText(5'612'345'678), "5.61 GB");
 }
 
