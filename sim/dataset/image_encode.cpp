@@ -81,9 +81,8 @@ std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const s
     throw std::invalid_argument("an EXR of " + std::to_string(image.channels()) + " channels with " +
                                 std::to_string(channels.size()) + " names");
   const cv::Mat samples = ToSamples(image, {FileFormat::kExr, bits});
-  // Halves of photographs: piz is as small, in a third of the time.
-  if (bits == 16) return WriteExr(samples, channels, "piz");
-  return WriteExr(samples, channels, ZipsHelps(samples, channels) ? "zips" : "none");
+  if (bits == 32 && !ZipsHelps(samples, channels)) return WriteExr(samples, channels, "none");
+  return WriteExr(samples, channels, "zips");
 }
 
 std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality) {

@@ -81,8 +81,8 @@ cv::Mat FromSamples(const cv::Mat& samples);
 cv::Mat Quantise(const cv::Mat& image, Encoding encoding);
 
 // A whole file as bytes; the same bytes for the same picture, on any day.
-// PNG: 1 to 4 channels (by OpenImageIO 1 or 3), no colour chunk. EXR: one name a channel; halves are
-// compressed by piz, floats by zips, or not at all where that would save less than a tenth.
+// PNG: 1 to 4 channels (by OpenImageIO 1 or 3), no colour chunk. EXR: one name a channel; compressed by zips,
+// or, of 32 bits, not at all where that would save less than a tenth.
 std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits, PngWriter writer = PngWriter::kIsal);
 std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const std::string> channels);
 

@@ -202,7 +202,7 @@ TEST(ImageIo, TheSameBytesAgain) {
 }
 
 // Half floats always; floats where it helps: planes of one value, and values of 8 bits, but not noise.
-TEST(ImageIo, ExrIsCompressedWhereItHelps) {
+TEST(ImageIo, ExrIsCompressedByZipsWhereItHelps) {
   const TempFolder folder;
   const auto compression_of = [&](const cv::Mat& image, int bits) {
     const auto path = folder.Put("x.exr", EncodeImage(image, {FileFormat::kExr, bits}));
@@ -218,7 +218,7 @@ TEST(ImageIo, ExrIsCompressedWhereItHelps) {
       for (int x = 0; x < size.width; ++x) one_plane.at<cv::Vec3f>(y, x)[1] = 0;
     noise.convertTo(few_levels, CV_8U, 10);
     few_levels.convertTo(few_levels, CV_32F, 1 / 255.0);
-    EXPECT_EQ(compression_of(noise, 16), "piz") << size;
+    EXPECT_EQ(compression_of(noise, 16), "zips") << size;
     EXPECT_EQ(compression_of(noise, 32), "none") << size;
     EXPECT_EQ(compression_of(one_plane, 32), "zips") << size;
     EXPECT_EQ(compression_of(few_levels, 32), "zips") << size;
