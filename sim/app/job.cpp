@@ -66,11 +66,11 @@ Job Job::Load(const std::filesystem::path& config_path, std::span<const std::str
 }
 
 Job Job::OfDataset(const std::filesystem::path& folder, const Json& description,
-                   const std::filesystem::path& config_folder) {
+                   const std::filesystem::path& config_folder, const std::atomic<bool>& stop) {
   ConfigFile config = ConfigOfDataset(folder, description);
   SourceList sources;
   try {
-    sources = SourceList::Find(config.fixed().source, config_folder, folder);
+    sources = SourceList::Find(config.fixed().source, config_folder, folder, stop);
   } catch (const ConfigError& error) {
     throw std::runtime_error(folder.string() + ": can't be made again: " + error.pointer() + ": " +
                              error.what());

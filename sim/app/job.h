@@ -47,9 +47,10 @@ struct Job {
 
   // Of a data set, to make clips of it again: the config that its dataset.json holds, and the sources that it
   // finds now, relative ones from config_folder. Throws std::runtime_error where there are none, and where
-  // this would make another data set (each difference is named).
+  // this would make another data set (each difference is named); dataset::Interrupted once stop is set.
   static Job OfDataset(const std::filesystem::path& folder, const Json& description,
-                       const std::filesystem::path& config_folder);
+                       const std::filesystem::path& config_folder,
+                       const std::atomic<bool>& stop = dataset::kNeverStop);
 
   // What dataset.json says: config, its hash, sources with hashes, engine, version.
   Json Description() const;

@@ -32,8 +32,11 @@ int Merge(const MergeOptions& options) {
   std::vector<std::filesystem::path> folders = options.from;
   folders.push_back(options.folder);
   const int64_t shards = ShardCountIn(folders);
-  const Json description = dataset::ReadDescription(options.from.empty() ? options.folder : options.from[0]);
-  const dataset::Layout layout = LayoutOfDataset(folders[0], description);
+  const bool is_there =
+      options.from.empty() || std::filesystem::exists(options.folder / dataset::kDescriptionName);
+  const std::filesystem::path& described = is_there ? options.folder : options.from[0];
+  const Json description = dataset::ReadDescription(described);
+  const dataset::Layout layout = LayoutOfDataset(described, description);
   {
     dataset::DatasetWriter writer(options.folder, layout, description);  // clears away what kills have left
     for (const auto& from : options.from) dataset::Adopt(writer, from);

@@ -24,10 +24,11 @@ using dataset::ProblemKind;
 // Damaged lines are left out: the clips that miss them are made again.
 void LeaveOut(const std::string&) {}
 
-Job JobOf(const fs::path& folder, const Json& description, const fs::path& config_folder) {
+Job JobOf(const fs::path& folder, const Json& description, const fs::path& config_folder,
+          const std::atomic<bool>& stop) {
   const bool drawn = !ConfigOfDataset(folder, description).fixed().source.drawn.empty();
   return Job::OfDataset(folder, description,
-                        drawn || !config_folder.empty() ? config_folder : NotedConfigFolder(folder));
+                        drawn || !config_folder.empty() ? config_folder : NotedConfigFolder(folder), stop);
 }
 
 // Those that are to be made again, and whatever stands in a tar with them.
@@ -68,6 +69,7 @@ void MakeAgain(const fs::path& folder, const Job& job, const std::vector<int64_t
   dataset::DatasetWriter writer(folder, job.Layout(), job.Description());
   const std::set<int64_t> were_done = writer.done();
   const MemoryPlan memory = PlanMemory(kDefaultMemory_bytes, job.config, threads);
+  job.pictures->SetBudget(static_cast<uint64_t>(memory.sources_bytes));
   Progress progress(std::ssize(clips), 0, quiet);
   const auto keep = [&](MadeClip made) {
     const bool failed = !made.staged;
@@ -104,7 +106,7 @@ Repaired Repair(const fs::path& folder, const VerifiedSet& found, const fs::path
   std::optional<Job> job;
   std::vector<int64_t> clips;
   if (clips_wanted) {
-    job = JobOf(folder, dataset::ReadDescription(folder), config_folder);
+    job = JobOf(folder, dataset::ReadDescription(folder), config_folder, stop);
     clips = ClipsToMake(folder, found, *job);
   }
 
@@ -129,7 +131,8 @@ Repaired Repair(const fs::path& folder, const VerifiedSet& found, const fs::path
     if (stop) return repaired;
     TidyManifest(folder);
   }
-  FinishDataset(folder, layout);
+  // Of clips that are damaged still, no report can be drawn.
+  if (repaired.errors.empty()) FinishDataset(folder, layout);
   return repaired;
 }
 

@@ -13,6 +13,7 @@
 #include "sim/app/repair.h"
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/folder_lock.h"
+#include "sim/dataset/interrupted.h"
 
 namespace shimmer::app {
 namespace {
@@ -51,9 +52,7 @@ void Print(const VerifyOptions& options, const VerifiedSet& found) {
             Counted(std::ssize(found.problems), "problem"));
 }
 
-}  // namespace
-
-int Verify(const VerifyOptions& options, const std::atomic<bool>& stop) {
+int VerifyAndRepair(const VerifyOptions& options, const std::atomic<bool>& stop) {
   if (!fs::exists(options.folder / dataset::kDescriptionName))
     throw std::invalid_argument(options.folder.string() + ": not a data set (no " +
                                 dataset::kDescriptionName + " in it)");
@@ -80,6 +79,16 @@ int Verify(const VerifyOptions& options, const std::atomic<bool>& stop) {
     Print(options, found);
   }
   return found.problems.empty() && found.failed == 0 ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+int Verify(const VerifyOptions& options, const std::atomic<bool>& stop) {
+  try {
+    return VerifyAndRepair(options, stop);
+  } catch (const dataset::Interrupted&) {
+    return kExitInterrupted;
+  }
 }
 
 }  // namespace shimmer::app

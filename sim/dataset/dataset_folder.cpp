@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 #include <string>
@@ -40,6 +41,7 @@ void MakeDatasetFolder(const fs::path& folder) {
 }
 
 void WriteDatasetFile(const fs::path& folder, const std::string& name, std::span<const uint8_t> bytes) {
+  if (fs::is_regular_file(folder / name) && std::ranges::equal(ReadFile(folder / name), bytes)) return;
   const fs::path to = folder / name;
   std::string staging = (folder / (std::string(kStagingName) + ".XXXXXX")).string();
   if (!mkdtemp(staging.data()))

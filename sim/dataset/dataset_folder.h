@@ -18,7 +18,7 @@ inline constexpr const char* kStagingName = ".staging";  // what is being writte
 // data set; std::runtime_error if it can't be made.
 void MakeDatasetFolder(const std::filesystem::path& folder);
 
-// Writes a file of the set that is no clip's, whole or not at all: beside, in a staging folder of its own,
+// Writes a file of the set that is no clip's, unless it says that already; whole or not at all: beside, in a staging folder of its own,
 // for shards on several hosts may do this at the same moment, and renamed. Throws std::runtime_error.
 void WriteDatasetFile(const std::filesystem::path& folder, const std::string& name,
                       std::span<const uint8_t> bytes);

@@ -92,12 +92,6 @@ std::map<std::string, std::string> OfTars(const DatasetReader& set, const Layout
   return {{fs::path(layout.TarPath(0)).parent_path() / "index.json", index.dump(1) + "\n"}};
 }
 
-bool Says(const fs::path& file, const std::string& text) {
-  if (!fs::is_regular_file(file)) return false;
-  const std::vector<uint8_t> bytes = ReadFile(file);
-  return std::ranges::equal(bytes, AsBytes(text));
-}
-
 }  // namespace
 
 std::map<std::string, std::string> DerivedFiles(const DatasetReader& set, const Layout& layout) {
@@ -136,7 +130,7 @@ bool IsDerivedPath(const std::string& path, const Layout& layout) {
 
 void WriteDerivedFiles(const DatasetReader& set, const Layout& layout) {
   for (const auto& [path, text] : DerivedFiles(set, layout))
-    if (!Says(set.folder() / path, text)) WriteDatasetFile(set.folder(), path, AsBytes(text));
+    WriteDatasetFile(set.folder(), path, AsBytes(text));
 }
 
 }  // namespace shimmer::dataset

@@ -32,7 +32,7 @@ void ExpectFilesOfManifest(const fs::path& data_set) {
       EXPECT_EQ(dataset::Sha256HexOfFile(data_set / path), file.at("sha256")) << path;
     }
   for (const auto& [path, content] : Tree(data_set)) there.insert(path);
-  named.insert({"dataset.json", "manifest.jsonl"});
+  named.insert({"dataset.json", "manifest.jsonl", "report.html"});
   EXPECT_EQ(there, named);
 }
 

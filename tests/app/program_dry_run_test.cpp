@@ -75,7 +75,7 @@ TEST(DryRun, RefusesATargetThatCantHoldIt) {
                    {"generate", "c.json", "--out", "disk/set", "--dry-run", "--set", "clips=" + clips});
   };
   EXPECT_EQ(dry_run("5").exit_code, 0);
-  for (const auto& [clips, why] : {std::pair{"1000", "would take "}, {"60", "files, but "}}) {
+  for (const auto& [clips, why] : {std::pair{"1000", "would take "}, {"80", "files, but "}}) {
     const Ran ran = dry_run(clips);
     EXPECT_EQ(ran.exit_code, 1);
     EXPECT_THAT(ran.err, testing::AllOf(testing::StartsWith("shimmer: disk/set: would take "),

@@ -257,7 +257,7 @@ TEST(Verify, WhatAKillHasLeftIsClearedByRepair) {
   EXPECT_THAT(Verify(folder).out, HasSubstr(".staging: surplus: what a run that was killed has left\n"));
   EXPECT_EQ(Verify(folder, {"--repair"}).exit_code, 0);
   EXPECT_EQ(NamesIn(folder / "set"),
-            (std::set<std::string>{".lock", "dataset.json", "manifest.jsonl", "shimmer"}));
+            (std::set<std::string>{".lock", "dataset.json", "manifest.jsonl", "report.html", "shimmer"}));
 }
 
 // A link in the place of a file or folder is moved away; what it leads to is not touched.
