@@ -26,7 +26,7 @@ void LeaveOut(const std::string&) {}
 
 Job JobOf(const fs::path& folder, const Json& description, const fs::path& config_folder,
           const std::atomic<bool>& stop) {
-  const bool drawn = !ConfigOfDataset(folder, description).fixed().source.drawn.empty();
+  const bool drawn = !ConfigOfDataset(folder, description).fixed().source.FromFiles();
   return Job::OfDataset(folder, description,
                         drawn || !config_folder.empty() ? config_folder : NotedConfigFolder(folder), stop);
 }

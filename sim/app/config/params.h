@@ -34,6 +34,8 @@ struct SourceParams {
   bool flip = false;
   Start start = Start::kRandom;
 
+  bool FromFiles() const { return !images.empty() || !video.empty() || !sequence.empty(); }
+
   template <class Self, class Visitor>
   static void Fields(Self& self, Visitor& visit) {
     visit(Field{.name = "images",
