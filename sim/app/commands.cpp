@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "sim/app/error_line.h"
 #include "sim/app/generate.h"
 #include "sim/app/job.h"
 #include "sim/app/merge.h"
@@ -50,11 +51,8 @@ void RequireCommand(const CLI::App& app, const std::string& word) {
                               " (shimmer --help)");
 }
 
-// One line, whatever a library put into its message.
 int Report(const std::string& message, int exit_code) {
-  std::string line = message;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  std::fprintf(stderr, "shimmer: %s\n", line.c_str());
+  PrintError(message);
   return exit_code;
 }
 

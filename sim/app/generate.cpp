@@ -11,6 +11,7 @@
 
 #include "sim/app/clip_pipeline.h"
 #include "sim/app/dry_run.h"
+#include "sim/app/error_line.h"
 #include "sim/app/finish.h"
 #include "sim/app/job.h"
 #include "sim/app/origin.h"
@@ -114,9 +115,10 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   if (!options.quiet) std::printf("%s\n", Summary(options, count, seconds).c_str());
   if (stop) return kExitInterrupted;
   if (count.failed > 0)
-    std::fprintf(stderr, "shimmer: %s: %lld clips failed, %s; \"error\" of their lines says why\n",
-                 (options.out / "manifest.jsonl").c_str(), static_cast<long long>(count.failed),
-                 first_error.empty() ? "all in an earlier run" : ("the first with: " + first_error).c_str());
+    PrintError((options.out / "manifest.jsonl").string() + ": " + std::to_string(count.failed) +
+               " clips failed, " +
+               (first_error.empty() ? "all in an earlier run" : "the first with: " + first_error) +
+               "; \"error\" of their lines says why");
   return count.failed > 0 ? kExitFailed : kExitDone;
 }
 

@@ -8,16 +8,17 @@
 
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/glob.h"
-#include "sim/dataset/numbered_name.h"
+#include "sim/dataset/own_entries.h"
 #include "sim/dataset/sha256.h"
-#include "sim/dataset/tar.h"
+#include "sim/dataset/tar_swap.h"
 
 namespace shimmer::dataset {
 namespace {
 
 namespace fs = std::filesystem;
 
-// What a kill may cost: clips that were made and are not named in the manifest yet.
+// What a kill may cost: clips that were made and are not named in the manifest yet (and the tar that they
+// belong to).
 constexpr size_t kMostWaiting = 64;
 
 fs::path ManifestOf(const fs::path& folder, const Shard& shard) {
@@ -36,22 +37,23 @@ DatasetWriter::DatasetWriter(fs::path folder, Layout layout, const Json& descrip
     : folder_(std::move(folder)),
       staging_(folder_ / (kStagingName + shard.Suffix())),
       layout_(std::move(layout)),
-      lock_((layout_.Validate(), shard.Validate(), MakeDatasetFolder(folder_), FolderLock(folder_, shard))),
+      lock_((layout_.Validate(), shard.Validate(), MakeDatasetFolder(folder_),
+             RequireOwnEntries(folder_, layout_), FolderLock(folder_, shard))),
       clips_((WriteDescription(folder_, description), description.at("config").value("clips", int64_t{0}))),
       manifest_(ManifestsIn(folder_)),
       lines_(ManifestOf(folder_, shard), manifest_.whole_bytes(ManifestOf(folder_, shard))),
       done_(manifest_.done()),
       failed_(manifest_.failed()) {
   CleanUp(shard);
-  const auto most = std::max<size_t>(kMostWaiting, 2 * static_cast<size_t>(layout_.ClipsPerUnit()));
   commits_ = std::make_unique<GroupCommit<Entry>>(
-      most, [this](std::vector<Entry> group) { CommitGroup(std::move(group)); });
+      kMostWaiting, [this](std::vector<Entry> group) { CommitGroup(std::move(group)); });
 }
 
 DatasetWriter::~DatasetWriter() {
   commits_.reset();
   unit_.clear();
   try {
+    SettleKeptTars(folder_, staging_);
     RemoveAll(staging_);
   } catch (const std::exception&) {
     // Opening the data set again cleans up.
@@ -115,28 +117,15 @@ void DatasetWriter::CommitGroup(std::vector<Entry> group) {
     AppendLines(group);
   } catch (...) {
     try {
+      // As the disk has it: of lines that can't be synced it is not sure that they can be taken back.
+      const Manifest now(ManifestsIn(folder_));
       for (const Entry& entry : group)
-        if (!IsDone(entry.clip)) Remove(entry.clip);
+        if (!now.done().contains(entry.clip)) Remove(entry.clip);
     } catch (const std::exception&) {
       // The first error is the one to tell; opening the folder again cleans up.
     }
     throw;
   }
-}
-
-// Of a set of tars: the entries whose tar is complete with them. The rest waits.
-std::vector<DatasetWriter::Entry> DatasetWriter::CompleteUnits(std::vector<Entry> group) {
-  std::vector<Entry> complete;
-  for (Entry& entry : group) {
-    const int64_t unit = layout_.UnitOf(entry.clip);
-    if (!unit_.empty() && layout_.UnitOf(unit_.front().clip) != unit) unit_.clear();
-    unit_.push_back(std::move(entry));
-    const int64_t end = std::min((unit + 1) * layout_.clips_per_tar, clips_);
-    if (unit * layout_.clips_per_tar + static_cast<int64_t>(unit_.size()) < end) continue;
-    std::ranges::move(unit_, std::back_inserter(complete));
-    unit_.clear();
-  }
-  return complete;
 }
 
 void DatasetWriter::Publish(std::vector<Entry>& entries) {
@@ -196,38 +185,6 @@ std::set<fs::path> DatasetWriter::MoveDiffering(const StagedClip& staged) const 
   return changed;
 }
 
-// All clips of one tar. What was there under its name is replaced.
-void DatasetWriter::PublishTar(std::vector<Entry>& unit) const {
-  const std::string tar_path = layout_.TarPath(layout_.UnitOf(unit.front().clip));
-  std::vector<TarMember> members;
-  for (Entry& entry : unit) {
-    if (!entry.staged) continue;
-    const std::string text = entry.line.dump(-1, ' ', false, Json::error_handler_t::replace);
-    entry.staged->Add({tar_path + "/" + Padded(entry.clip, 6) + ".json", {text.begin(), text.end()}, ""});
-    for (const StoredFile& file : entry.staged->files())
-      members.push_back({.name = file.path.substr(tar_path.size() + 1),
-                         .place = entry.staged->PlaceOf(file.path),
-                         .bytes = file.bytes});
-  }
-  const fs::path to = folder_ / tar_path, beside = staging_ / to.filename();
-  if (members.empty()) return RemoveAll(to);  // all of them failed; an empty tar would be read as a fault
-  MakeFolders(to.parent_path());
-  const std::vector<int64_t> offsets = WriteTar(beside, members);
-  Rename(beside, to);
-  SyncFolder(to.parent_path());
-  size_t member = 0;
-  for (Entry& entry : unit) {
-    if (!entry.staged) continue;
-    entry.line["files"] = Json::array();
-    for (StoredFile file : entry.staged->files()) {
-      file.path = tar_path;
-      file.member = members[member].name;
-      file.offset = offsets[member++];
-      entry.line["files"].push_back(ToJson(file));
-    }
-  }
-}
-
 void DatasetWriter::AppendLines(std::vector<Entry>& entries) {
   std::vector<Json> lines;
   for (Entry& entry : entries) {
@@ -236,6 +193,7 @@ void DatasetWriter::AppendLines(std::vector<Entry>& entries) {
     if (!known || manifest_.Line(entry.clip) != entry.line) lines.push_back(std::move(entry.line));
   }
   lines_.Append(lines);
+  if (layout_.IsTars()) DropKeptTars(staging_);
   for (const Entry& entry : entries) Note(entry.clip, entry.staged.has_value());
 }
 
@@ -273,6 +231,7 @@ void DatasetWriter::Adopt(const fs::path& from, const std::vector<Json>& lines) 
 void DatasetWriter::CleanUp(const Shard& shard) const {
   const std::string left = shard.whole() ? std::string(kStagingName) + "*" : staging_.filename().string();
   for (const fs::path& staging : ExpandGlob(folder_, left)) {
+    SettleKeptTars(folder_, staging);
     std::error_code gone;  // by whoever waits to write here, and had a file to remember
     for (const auto& entry : fs::directory_iterator(staging, gone)) {
       const std::string name = entry.path().filename().string();

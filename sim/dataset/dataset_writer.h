@@ -28,7 +28,7 @@ namespace shimmer::dataset {
 class DatasetWriter {
  public:
   // Opens or makes the folder. description: what dataset.json says (dataset_difference.h).
-  // Throws std::invalid_argument: the folder holds other files, or a data set made from something else (each
+  // Throws std::invalid_argument: the folder holds other files or links, or a data set made from something else (each
   // difference is named; `clips` may differ). Throws FolderBusy: another process writes there, and
   // std::runtime_error: it can't be written; its manifest is damaged.
   DatasetWriter(std::filesystem::path folder, Layout layout, const Json& description,

@@ -91,6 +91,35 @@ bool IsAlive(const fs::path& file, const Holder& holder, const fs::path& just_wr
                    "; wait for it to end (generate --wait does)");
 }
 
+// Without locks: who looks whether a folder is free and then takes it does so alone. Lives for a moment; that
+// of a process which was killed in it is nobody's after kStaleSeconds.
+class Claim {
+ public:
+  Claim(const fs::path& folder, const fs::path& lock)
+      : path_(folder / (".lock-claim" + lock.filename().string().substr(std::string(kLockName).size()))) {
+    if (Make()) return;
+    const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path_, error_);
+    if (error_ || age < std::chrono::seconds(kStaleSeconds)) Busy(folder, lock);
+    fs::remove(path_, error_);
+    if (!Make()) Busy(folder, lock);
+  }
+  ~Claim() { fs::remove(path_, error_); }
+  Claim(const Claim&) = delete;
+
+  const fs::path& path() const { return path_; }  // just made, by the file system's clock
+
+ private:
+  // One at a time can, over a network too.
+  bool Make() {
+    const bool made = fs::create_directory(path_, error_);
+    if (error_) throw std::runtime_error(path_.string() + ": can't be made: " + error_.message());
+    return made;
+  }
+
+  fs::path path_;
+  std::error_code error_;
+};
+
 }  // namespace
 
 class FolderLock::Held {
@@ -98,16 +127,15 @@ class FolderLock::Held {
   Held(const fs::path& folder, const Shard& shard)
       : path_(folder / (kLockName + shard.Suffix())), file_(path_, O_CREAT | O_RDWR) {
     const Lock lock = file_.TryLock();
-    const auto named = Holder::Of(path_);
     if (lock == Lock::kTaken) Busy(folder, path_);
-    if (lock == Lock::kNone && named && !named->IsSelf()) {
-      const fs::path clock = folder / (".clock" + std::to_string(getpid()));
-      WriteFile(clock, AsBytes(std::string("now")));
-      const bool alive = IsAlive(path_, *named, clock);
-      RemoveAll(clock);
-      if (alive) Busy(folder, path_);
+    if (lock == Lock::kNone) {
+      const Claim claim(folder, path_);
+      const auto named = Holder::Of(path_);
+      if (named && !named->IsSelf() && IsAlive(path_, *named, claim.path())) Busy(folder, path_);
+      WriteHolder();
+    } else {
+      WriteHolder();
     }
-    WriteHolder();
     try {
       RefuseOthers(folder, shard);
     } catch (...) {

@@ -4,7 +4,7 @@
 // The lock is the system's (flock) on .lock, or .lock.003-of-008 of a shard, where the file system has such
 // locks. On one that has none (some cluster file systems) the file itself says who holds it, host and
 // process, and the holder renews its date: a holder is taken for dead whose process is gone on this host, or
-// whose file is older than kStaleSeconds on another.
+// whose file is older than kStaleSeconds on another. Of two that begin at the same moment one is told so.
 #pragma once
 
 #include <filesystem>

@@ -45,6 +45,7 @@ std::string HashOfBytes(const fs::path& file, const std::atomic<bool>& stop) {
 
 HashMemory::HashMemory(const fs::path& folder) {
   try {
+    RequireFile(folder / kHashMemoryName);
     Parse(ReadFile(folder / kHashMemoryName));
   } catch (const std::exception&) {  // there is none, or it is damaged
     known_.clear();

@@ -81,7 +81,7 @@ void Manifest::Read(uint32_t file_index, const Damaged& damaged) {
   for (std::string line; std::getline(file, line);) {
     ++line_number;
     const bool has_newline = !file.eof();
-    if (!has_newline) return;  // torn
+    if (!has_newline || line.find('\0') != std::string::npos) return;  // torn
     try {
       Note(line, {file_index, whole_bytes});
     } catch (const std::exception& error) {

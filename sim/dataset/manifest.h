@@ -1,6 +1,7 @@
 // manifest.jsonl: a line a clip, each a JSON object with at least "clip" (its number) and "status" ("done" or
 // "failed"). The last line of a clip counts. A last line that a kill tore (no newline, or no JSON) counts as
-// not written; a damaged line anywhere else is an error.
+// not written, and so does a line with a zero byte and what follows it: a power cut while lines were being
+// written leaves such. A damaged line anywhere else is an error.
 //
 // Shards write manifests of their own, manifest.003-of-008.jsonl, which count together with manifest.jsonl: a
 // clip that is done in one of them is done.

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -36,28 +38,39 @@ using Words = std::vector<std::string>;
 struct Ran {
   int exit_code;  // 128 + signal where one ended it
   std::string out, err;
+  int64_t peak_bytes = 0;  // the most memory that it had at a time
 };
 
 inline constexpr int kNotStarted = 127;
 
-// A program that has been started, in a working directory of its own; as_nobody: by a user who owns nothing.
+// A process that has been started, in a working directory of its own.
 class Running {
  public:
+  // The program; as_nobody: by a user who owns nothing.
   Running(const fs::path& folder, const Words& words, bool as_nobody = false)
+      : Running(folder, [&] {
+          Words named = words;
+          named.insert(named.begin(), SHIMMER_PROGRAM);
+          std::vector<char*> arguments;
+          for (std::string& word : named) arguments.push_back(word.data());
+          arguments.push_back(nullptr);
+          constexpr uid_t kNobody = 65534;
+          if (!as_nobody || setuid(kNobody) == 0) execv(SHIMMER_PROGRAM, arguments.data());
+          return kNotStarted;
+        }) {}
+
+  // A copy of this process, which ends with what body returns.
+  Running(const fs::path& folder, const std::function<int()>& body)
       : out_(std::tmpfile()), err_(std::tmpfile()) {
-    Words named = words;
-    named.insert(named.begin(), SHIMMER_PROGRAM);
-    std::vector<char*> arguments;
-    for (std::string& word : named) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
+    std::fflush(nullptr);  // or else the copy would print what waits here once more
     pid_ = fork();
     if (pid_ != 0) return;
     dup2(fileno(out_), STDOUT_FILENO);
     dup2(fileno(err_), STDERR_FILENO);
-    constexpr uid_t kNobody = 65534;
-    const bool ready = chdir(folder.c_str()) == 0 && (!as_nobody || setuid(kNobody) == 0);
-    if (ready) execv(SHIMMER_PROGRAM, arguments.data());
-    _exit(kNotStarted);
+    if (chdir(folder.c_str()) != 0) _exit(kNotStarted);
+    const int exit_code = body();
+    std::fflush(nullptr);
+    _exit(exit_code);
   }
   ~Running() {
     std::fclose(out_);
@@ -65,12 +78,15 @@ class Running {
   }
   Running(const Running&) = delete;
 
+  pid_t pid() const { return pid_; }
   void Signal(int signal) const { kill(pid_, signal); }
 
   Ran Wait() {
     int status = 0;
-    waitpid(pid_, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), Text(out_), Text(err_)};
+    rusage used = {};
+    wait4(pid_, &status, 0, &used);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), Text(out_), Text(err_),
+            int64_t{used.ru_maxrss} * 1024};
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <sys/mount.h>
 
 #include "tests/app/program.h"
+#include "tests/app/small_disk.h"
 
 namespace shimmer::app {
 namespace {
@@ -119,27 +120,6 @@ TEST(Target, HasOneWriterAtATime) {
   EXPECT_EQ(ManifestLines(folder / "set").size(), 40u);
 }
 
-// A file system of its own, of this size; not there if that is not permitted.
-class SmallDisk {
- public:
-  SmallDisk(const fs::path& path, const std::string& size) : path_(path) {
-    fs::create_directory(path);
-    mounted_ = mount("tmpfs", path.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
-  }
-  ~SmallDisk() {
-    if (mounted_) umount(path_.c_str());
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  bool mounted() const { return mounted_; }
-  void Enlarge(const std::string& size) {
-    ASSERT_EQ(mount("tmpfs", path_.c_str(), "tmpfs", MS_REMOUNT, ("size=" + size).c_str()), 0);
-  }
-
- private:
-  fs::path path_;
-  bool mounted_;
-};
-
 // Whatever it is that finds no place, what is finished stays, and a run with more room completes the set.
 TEST(Target, ThatIsFull) {
   for (const char* layout : {"sequence", "pairs"}) {
@@ -148,12 +128,12 @@ TEST(Target, ThatIsFull) {
     ExpectDone(Generate(folder, "c.json", "whole"));
     const auto whole = Tree(folder / "whole");
     for (const char* size : {"4k", "12k", "40k", "72k"}) {
-      SmallDisk disk(folder / "disk", size);
+      SmallDisk disk(folder / "disk", std::string("size=") + size);
       if (!disk.mounted()) GTEST_SKIP() << "no right to mount a small file system";
       ExpectOneLine(Generate(folder, "c.json", "disk/set"), 1, {"disk/set", "No space left on device"});
       for (const auto& [path, content] : Tree(folder / "disk"))
         EXPECT_TRUE(!path.ends_with(".png") || content == whole.at(path.substr(4))) << path;
-      disk.Enlarge("4m");
+      disk.Enlarge("size=4m");
       ExpectDone(Generate(folder, "c.json", "disk/set"));
       EXPECT_EQ(Tree(folder / "disk/set"), whole) << layout << " " << size;
     }
@@ -163,7 +143,7 @@ TEST(Target, ThatIsFull) {
 TEST(Target, ThatCantBeWritten) {
   const TempFolder folder;
   folder.Put("c.json", SmallConfig());
-  SmallDisk disk(folder / "disk", "1m");
+  SmallDisk disk(folder / "disk", "size=1m");
   if (!disk.mounted() || mount("tmpfs", (folder / "disk").c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, "") != 0)
     GTEST_SKIP() << "no right to mount a file system";
   ExpectOneLine(Generate(folder, "c.json", "disk/set"), 1, {"disk/set", "Read-only file system"});
