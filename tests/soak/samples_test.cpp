@@ -34,7 +34,7 @@ class Samples : public testing::TestWithParam<Sample> {
                      {"source", {{"images", name + ".exr"}}},
                      {"output", {{"format", format}, {"bits", bits}, {"truth", {"tilt", "sigma"}}}}}));
     const std::string set = name + "_" + format + std::to_string(bits);
-    ExpectDone(RunForked(folder_, GenerateWords("c.json", set)));
+    ExpectDone(Shimmer(folder_, GenerateWords("c.json", set)));
     return dataset::DatasetReader(folder_ / set);
   }
 
