@@ -73,7 +73,7 @@ class Elsewhere : public testing::TestWithParam<std::string> {
   // A set of two clips of five.
   void SetUp() override {
     folder_.Put("c.json", SetConfig(GetParam(), 5));
-    ExpectDone(RunForked(folder_, GenerateWords("c.json", "set", {"--clip", "0", "--clip", "2"})));
+    ExpectDone(Shimmer(folder_, GenerateWords("c.json", "set", {"--clip", "0", "--clip", "2"})));
     folder_.Put("outside/mine.txt", "mine");
   }
   // Entries that are used on the way to each file.
@@ -130,7 +130,7 @@ TEST_P(Elsewhere, NothingIsMadeOrRemoved) {
     if (was_there) fs::rename(kept, place);
     fs::remove_all(folder_ / "outside/target");
   }
-  ExpectDone(RunForked(folder_, GenerateWords("c.json", "set")));
+  ExpectDone(Shimmer(folder_, GenerateWords("c.json", "set")));
   EXPECT_EQ(BrokenFiles(folder_ / "set"), Words());
 }
 

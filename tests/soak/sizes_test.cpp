@@ -15,7 +15,7 @@ void ExpectSize(int width, int height) {
     folder.Put("c.json", SmallConfig({{"clips", 1},
                                       {"size", {width, height}},
                                       {"output", {{"format", format}, {"truth", {"tilt", "sigma"}}}}}));
-    ExpectDone(RunForked(folder, GenerateWords("c.json", "set")));
+    ExpectDone(Shimmer(folder, GenerateWords("c.json", "set")));
     const dataset::DatasetReader set(folder / "set");
     for (const cv::Mat& frame :
          {set.Turb(0, 1).pixels, set.Clean(0, 1).pixels, set.TruthTilt(0, 1).value()}) {
@@ -64,7 +64,7 @@ TEST(Sizes, OfSourcesInChannels) {
     put(name + ".tif", channels, OIIO::TypeUInt16);
   }
   folder.Put("c.json", SmallConfig({{"clips", 150}, {"frames", 1}, {"source", {{"images", "in"}}}}));
-  RunForked(folder, GenerateWords("c.json", "set"));
+  Shimmer(folder, GenerateWords("c.json", "set"));
   const dataset::DatasetReader set(folder / "set");
   std::set<std::string> done, failed;
   for (const int64_t clip : set.clips()) {
