@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The fault tests at their full size, one after the other, and the lines that they count: docs/reliability.md.
-# Each is in scripts/test.sh's run too, but small. Takes most of an hour on two cores.
+# Each is in scripts/test.sh's run too, but small. Takes twenty minutes on two cores.
 #
 #   scripts/soak.sh [ctest options, e.g. -R PowerCut]
 set -euo pipefail
