@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "noise/row_blocks.h"
 #include "noise/spline_rows.h"
 
 namespace shimmer::noise {
 namespace {
 
 constexpr double kSimplexPoint = 3.0, kPerlinPoint = 1.9;
-constexpr double kRowStart = 120;
+constexpr double kRowStart = 120, kVectorPoints = 16;
 constexpr double kFilterPoint = 1, kRefinePoint = 0.5;  // of a coefficient
 constexpr double kMixPoint = 1, kMixFarPoint = 3;       // of four grids in the cache, or beyond it
 constexpr double kAddPixel = 0.3, kSplinePixel = 0.6;
@@ -25,9 +24,9 @@ FieldCost::FieldCost(NoiseKind kind, int width_px, int height_px, int frames)
     : kind_(kind), width_(width_px), height_(height_px), frames_(frames) {}
 
 double FieldCost::Rows(double rows, double points) const {
-  const double blocks = std::ceil(points / kBlockPoints);
+  const double vectors = std::ceil(points / kVectorPoints) + 0.5;  // the first begins before the row, or not
   const double point = kind_ == NoiseKind::kPerlin ? kPerlinPoint : kSimplexPoint;
-  return rows * (kRowStart + blocks * kBlockPoints * point);
+  return rows * (kRowStart + vectors * kVectorPoints * point);
 }
 
 double FieldCost::Full() const { return Rows(height_, width_); }

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "noise/groups-inl.h"
 #include "noise/tables-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -95,9 +96,7 @@ HWY_INLINE Floats Interpolate(const EdgeHashes& hashes, const Edge (&edges)[4], 
 
 void AddPerlinRow(const Permutation& permutation, Fixed x, const PerlinStep& step, Fixed y, Fixed z,
                   float amplitude, int64_t x0, std::span<float> out) {
-  const FloatTag d;
   const WordTag dw;
-  const size_t lanes = hn::Lanes(d);
   const uint32_t y_cell = y.Cell8Fraction24(), z_cell = z.Cell8Fraction24();
   const auto fraction = [](uint32_t cell) { return static_cast<float>(cell & 0xffffff) * 0x1p-24f; };
   const float y0 = fraction(y_cell), y1 = y0 - 1, up = Fade(y0);
@@ -109,22 +108,23 @@ void AddPerlinRow(const Permutation& permutation, Fixed x, const PerlinStep& ste
               k = hn::Set(ByteTag(), static_cast<uint8_t>(z_cell >> 24));
   const ByteTable hash(permutation.data());
 
-  AddBlocks(x0, out, [&](int64_t block, float* sums) HWY_ATTR {
-    const Words start = hn::Set(dw, WordOf(x + step.x.step * block));
-    for (size_t group = 0; group < kBlockPoints; group += kParts * lanes) {
-      Words cell[kParts];
-      for (size_t part = 0; part < kParts; ++part)
-        cell[part] = hn::Add(start, hn::Load(dw, step.x.offsets.data() + group + part * lanes));
-      const EdgeHashes hashes = HashEdges(hash, TopBytes(cell), j, k);
-      const auto add = [&](Floats value, size_t part) HWY_ATTR {
-        float* to = sums + group + part * lanes;
-        hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
-      };
-      add(Interpolate<0>(hashes, edges, cell[0]), 0);
-      add(Interpolate<1>(hashes, edges, cell[1]), 1);
-      add(Interpolate<2>(hashes, edges, cell[2]), 2);
-      add(Interpolate<3>(hashes, edges, cell[3]), 3);
+  const auto start_of = [&](int64_t block) { return WordOf(x + step.x.step * block); };
+  int64_t block = BlockOf(x0);
+  uint32_t start = start_of(block);
+  const GroupedRow row(x0, out);
+  row.ForGroups([&](int64_t first) HWY_ATTR {
+    Words cell[kParts];
+    for (size_t part = 0; part < kParts; ++part) {
+      const int64_t pixel = first + static_cast<int64_t>(part) * kPartPoints;
+      if (BlockOf(pixel) != block) block = BlockOf(pixel), start = start_of(block);
+      cell[part] = hn::Add(hn::Set(dw, start),
+                           hn::Load(dw, step.x.offsets.data() + static_cast<size_t>(pixel - block)));
     }
+    const EdgeHashes hashes = HashEdges(hash, TopBytes(cell), j, k);
+    row.Add(first, [&]() HWY_ATTR { return Interpolate<0>(hashes, edges, cell[0]); });
+    row.Add(first + kPartPoints, [&]() HWY_ATTR { return Interpolate<1>(hashes, edges, cell[1]); });
+    row.Add(first + 2 * kPartPoints, [&]() HWY_ATTR { return Interpolate<2>(hashes, edges, cell[2]); });
+    row.Add(first + 3 * kPartPoints, [&]() HWY_ATTR { return Interpolate<3>(hashes, edges, cell[3]); });
   });
 }
 

@@ -4,17 +4,18 @@
 // begins.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "noise/fixed.h"
 
 namespace shimmer::noise {
 
 inline constexpr size_t kBlockPoints = 64;  // a multiple of every vector length
+
+// The first pixel of a pixel's block.
+inline constexpr int64_t BlockOf(int64_t x) { return x & -static_cast<int64_t>(kBlockPoints); }
 
 // Coordinates of points are words: 8 bits of cell, one bit that means nothing, and 23 bits of fraction, which
 // are the mantissa of 1 + fraction as a float. Block starts have the odd bit clear and offsets have it set,
@@ -44,25 +45,5 @@ struct RowStep {
 };
 
 inline constexpr uint32_t WordOf(Fixed coordinate) { return SpreadWord(coordinate.Cell9Fraction23()); }
-
-// Calls add(first pixel of a block, sums) for each block that meets pixels x0 .. x0 + out.size() - 1; add
-// adds the block's values to its 64 sums, which are those of out, or a copy of them where out holds only part
-// of the block.
-template <class Add>
-void AddBlocks(int64_t x0, std::span<float> out, const Add& add) {
-  constexpr auto kPoints = static_cast<int64_t>(kBlockPoints);
-  const int64_t end = x0 + static_cast<int64_t>(out.size());
-  for (int64_t block = x0 & -kPoints; block < end; block += kPoints) {
-    const int64_t first = std::max(block, x0), last = std::min(block + kPoints, end);
-    if (last - first == kPoints) {
-      add(block, out.data() + (block - x0));
-    } else {
-      float sums[kBlockPoints] = {};
-      std::copy(out.data() + (first - x0), out.data() + (last - x0), sums + (first - block));
-      add(block, sums);
-      std::copy(sums + (first - block), sums + (last - block), out.data() + (first - x0));
-    }
-  }
-}
 
 }  // namespace shimmer::noise

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "noise/groups-inl.h"
 #include "noise/tables-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -173,7 +174,6 @@ void AddSimplexRow(const SimplexTable& table, SimplexKernel kernel, Fixed x, con
                    Fixed z, float amplitude, int64_t x0, std::span<float> out) {
   const FloatTag d;
   const WordTag dw;
-  const size_t lanes = hn::Lanes(d);
   const Fixed sum = x + y + z, skew = sum.Third();
   const Fixed u_at_pixel0 = x + skew, v_at_pixel0 = y + skew, w_at_pixel0 = z + skew;
   // What the thirds leave, in thirds of 2^-64 cell: with it a block's start is exact, so that where the
@@ -183,31 +183,38 @@ void AddSimplexRow(const SimplexTable& table, SimplexKernel kernel, Fixed x, con
                scale = hn::Set(d, static_cast<float>(kernel.scale) * amplitude / 3);
   const Hashes hashes{ByteTable(table.hash.data()), ByteTable(table.gradient.data())};
 
-  AddBlocks(x0, out, [&](int64_t block, float* sums) HWY_ATTR {
+  struct Start {
+    uint32_t u, v, w;
+  };
+  const auto start_of = [&](int64_t block) -> Start {
     const int64_t left = rest + step.rest * block;
     const Fixed carry = Fixed::FromBits(left / 3 - (left % 3 < 0)), along_v = step.v.step * block + carry;
-    const Words u0 = hn::Set(dw, WordOf(u_at_pixel0 + step.u.step * block + carry)),
-                v0 = hn::Set(dw, WordOf(v_at_pixel0 + along_v)),
-                w0 = hn::Set(dw, WordOf(w_at_pixel0 + along_v));
-    for (size_t group = 0; group < kBlockPoints; group += kParts * lanes) {
-      Points p;
-      for (size_t j = 0; j < kParts; ++j) {
-        const Words offset_v = hn::Load(dw, step.v.offsets.data() + group + j * lanes);
-        p.u[j] = hn::Add(u0, hn::Load(dw, step.u.offsets.data() + group + j * lanes));
-        p.v[j] = hn::Add(v0, offset_v), p.w[j] = hn::Add(w0, offset_v);
-        p.fu[j] = OnePlusFraction(p.u[j]), p.fv[j] = OnePlusFraction(p.v[j]);
-        p.fw[j] = OnePlusFraction(p.w[j]);
-      }
-      const Codes codes = HashCorners(hashes, p);
-      const auto add = [&](Floats value, size_t part) HWY_ATTR {
-        float* to = sums + group + part * lanes;
-        hn::StoreU(hn::Add(hn::LoadU(d, to), value), d, to);
-      };
-      add(hn::Mul(Geometry<0>(codes, p, radius2), scale), 0);
-      add(hn::Mul(Geometry<1>(codes, p, radius2), scale), 1);
-      add(hn::Mul(Geometry<2>(codes, p, radius2), scale), 2);
-      add(hn::Mul(Geometry<3>(codes, p, radius2), scale), 3);
+    return {WordOf(u_at_pixel0 + step.u.step * block + carry), WordOf(v_at_pixel0 + along_v),
+            WordOf(w_at_pixel0 + along_v)};
+  };
+
+  int64_t block = BlockOf(x0);
+  Start start = start_of(block);
+  const GroupedRow row(x0, out);
+  row.ForGroups([&](int64_t first) HWY_ATTR {
+    Points p;
+    for (size_t j = 0; j < kParts; ++j) {
+      const int64_t pixel = first + static_cast<int64_t>(j) * kPartPoints;
+      if (BlockOf(pixel) != block) block = BlockOf(pixel), start = start_of(block);
+      const auto i = static_cast<size_t>(pixel - block);
+      const Words offset_v = hn::Load(dw, step.v.offsets.data() + i);
+      p.u[j] = hn::Add(hn::Set(dw, start.u), hn::Load(dw, step.u.offsets.data() + i));
+      p.v[j] = hn::Add(hn::Set(dw, start.v), offset_v), p.w[j] = hn::Add(hn::Set(dw, start.w), offset_v);
+      p.fu[j] = OnePlusFraction(p.u[j]), p.fv[j] = OnePlusFraction(p.v[j]);
+      p.fw[j] = OnePlusFraction(p.w[j]);
     }
+    const Codes codes = HashCorners(hashes, p);
+    row.Add(first, [&]() HWY_ATTR { return hn::Mul(Geometry<0>(codes, p, radius2), scale); });
+    row.Add(first + kPartPoints, [&]() HWY_ATTR { return hn::Mul(Geometry<1>(codes, p, radius2), scale); });
+    row.Add(first + 2 * kPartPoints,
+            [&]() HWY_ATTR { return hn::Mul(Geometry<2>(codes, p, radius2), scale); });
+    row.Add(first + 3 * kPartPoints,
+            [&]() HWY_ATTR { return hn::Mul(Geometry<3>(codes, p, radius2), scale); });
   });
 }
 

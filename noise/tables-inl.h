@@ -15,20 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace shimmer::noise::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A group: as many points as a vector has bytes. Its lattice hashes are bytes, point j N + i in byte j of
-// lane i (N lanes of 32 bits); its geometry is four vectors of floats, the j-th for byte j.
-constexpr size_t kParts = 4;
-
-// The top bytes of four vectors, one to each byte of a lane.
-inline hn::Vec<hn::ScalableTag<uint8_t>> TopBytes(const hn::Vec<hn::ScalableTag<uint32_t>> (&part)[kParts]) {
-  const hn::ScalableTag<uint32_t> d;
-  using Words = hn::Vec<decltype(d)>;
-  const Words a = hn::ShiftRight<24>(part[0]), b = hn::And(hn::ShiftRight<16>(part[1]), hn::Set(d, 0xff00u));
-  const Words c = hn::And(hn::ShiftRight<8>(part[2]), hn::Set(d, 0xff0000u)),
-              e = hn::And(part[3], hn::Set(d, 0xff000000u));
-  return hn::BitCast(hn::ScalableTag<uint8_t>(), hn::Or(hn::Or(a, b), hn::Or(c, e)));
-}
-
 #if HWY_TARGET == HWY_AVX3_DL
 
 // One instruction looks up 128 entries.

@@ -16,7 +16,7 @@
 namespace shimmer::app {
 
 // Grows by one whenever the pixels of an existing config change.
-inline constexpr int kEngine = 3;
+inline constexpr int kEngine = 4;
 inline constexpr const char* kVersion = "shimmer 0.1.0";
 
 // Throws ConfigError, or std::invalid_argument if the file can't be read.
