@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -30,6 +31,7 @@ struct Options {
                                        "/usr/share/wallpapers/Path/contents/images/2560x1600.jpg"};
   fs::path out = fs::temp_directory_path();
   std::string only, json;
+  int rounds = 3;
   bool quick = false;
 };
 
@@ -70,7 +72,8 @@ Json ConfigOf(const Case& one, const Options& options) {
           {"output", one.output}};
 }
 
-// A folder that is gone afterwards.
+// A folder that is gone afterwards, and not before: a file system may search long for inodes of new files
+// among those that were removed a minute ago.
 class Scratch {
  public:
   explicit Scratch(const fs::path& parent) : path_(parent / ("bench_generate_" + std::to_string(getpid()))) {
@@ -86,71 +89,88 @@ class Scratch {
   fs::path path_;
 };
 
-Json RunCase(const Case& one, const Options& options) {
-  const Scratch scratch(options.out);
-  const fs::path config = scratch.path() / "config.json", set = scratch.path() / "set";
+struct Measured {
+  double clips_per_s = 0, cpu_s_per_clip = 0, MB_per_clip = 0, peak_MB = 0;
+};
+
+Measured RunCase(const Case& one, const fs::path& folder, const Options& options) {
+  fs::create_directories(folder);
+  const fs::path config = folder / "config.json", set = folder / "set";
   std::ofstream(config) << ConfigOf(one, options);
   const int warm_up = options.quick ? 1 : one.warm_up, clips = options.quick ? 4 : one.clips;
+  LineCounter counter(set / "manifest.jsonl");
   int64_t lines = 0, first_lines = 0;
   double first_s = 0, last_s = 0;
-  double early_MB = 0, late_MB = 0;
-  const ProgramRun run = RunProgram({SHIMMER_PROGRAM, "generate", config, "--out", set, "--quiet"},
-                                    [&](double seconds, double resident_MB) {
-                                      const int64_t now = LinesOf(set / "manifest.jsonl");
-                                      if (now == lines) return;
-                                      lines = now, last_s = seconds;
-                                      if (now >= warm_up && first_lines == 0)
-                                        first_lines = now, first_s = seconds, early_MB = resident_MB;
-                                      late_MB = resident_MB;
-                                    });
-  const int64_t done = LinesOf(set / "manifest.jsonl");
-  if (done != clips) throw std::runtime_error(std::string(one.name) + ": not every clip was made");
+  const ProgramRun run =
+      RunProgram({SHIMMER_PROGRAM, "generate", config, "--out", set, "--quiet"}, [&](double seconds) {
+        const int64_t now = counter.Now();
+        if (now == lines) return;
+        lines = now, last_s = seconds;
+        if (now >= warm_up && first_lines == 0) first_lines = now, first_s = seconds;
+      });
+  if (counter.Now() != clips) throw std::runtime_error(std::string(one.name) + ": not every clip was made");
   uintmax_t bytes = 0;
   for (const auto& entry : fs::recursive_directory_iterator(set))
     if (entry.is_regular_file()) bytes += entry.file_size();
   const double rate = last_s > first_s && lines > first_lines
                           ? static_cast<double>(lines - first_lines) / (last_s - first_s)
                           : clips / run.wall_s;
-  return {{"name", one.name},
-          {"clips_per_s", rate},
-          {"cpu_s_per_clip", run.cpu_s / clips},
-          {"MB_per_clip", static_cast<double>(bytes) / 1e6 / clips},
-          {"peak_MB", run.peak_MB},
-          {"early_MB", early_MB},
-          {"late_MB", late_MB}};
+  return {rate, run.cpu_s / clips, static_cast<double>(bytes) / 1e6 / clips, run.peak_MB};
 }
 
-// One clip on one core, the pictures decoded before the clock starts.
+double Median(const std::vector<Measured>& rounds, double Measured::*figure) {
+  std::vector<double> values;
+  for (const Measured& round : rounds) values.push_back(round.*figure);
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+// A clip of each picture on one core, the pictures decoded before the clock starts.
 Json RunAuthors(int side_px, const Options& options) {
-  cv::Mat picture;
+  std::vector<cv::Mat> pictures;
   for (const std::string& name : options.pictures)
-    if (picture.empty()) picture = cv::imread(name);
-  if (picture.empty()) throw std::runtime_error(options.pictures[0] + " is not a picture that can be read");
+    if (cv::Mat picture = cv::imread(name); !picture.empty()) pictures.push_back(picture);
+  if (pictures.empty()) throw std::runtime_error(options.pictures[0] + " is not a picture that can be read");
   const int frames = options.quick ? kQuickFrames : kFrames, side = options.quick ? 48 : side_px;
-  cv::Mat clean;
-  cv::resize(picture, clean, {side, side}, 0, 0, cv::INTER_AREA);
+  for (cv::Mat& picture : pictures) cv::resize(picture, picture, {side, side}, 0, 0, cv::INTER_AREA);
   sim::Scene scene;
   scene.tilt.strength_px = 5, scene.blur.max_sigma_px = 3.25;
-  const auto start = std::chrono::steady_clock::now();
   std::vector<uchar> file;
   size_t bytes = 0;
-  const AuthorsMethod method(scene, clean.size(), frames, AuthorsMode::kFast);
-  for (const cv::Mat& frame : method.RenderClip(clean)) {
+  const auto keep = [&](const cv::Mat& frame) {
     cv::imencode(".png", frame, file);
     bytes += file.size();
+  };
+  const auto start = std::chrono::steady_clock::now();
+  for (const cv::Mat& clean : pictures) {
+    const AuthorsMethod method(scene, clean.size(), frames, AuthorsMode::kFast);
+    for (const cv::Mat& frame : method.RenderClip(clean)) keep(frame);
+    keep(clean);
   }
-  cv::imencode(".png", clean, file);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const double clips = static_cast<double>(pictures.size()), seconds = taken.count() / clips;
   return {{"name", "the authors' method, one core, " + SizeText({side, side})},
           {"clips_per_s", 1 / seconds},
           {"cpu_s_per_clip", seconds},
-          {"MB_per_clip", static_cast<double>(bytes + file.size()) / 1e6}};
+          {"MB_per_clip", static_cast<double>(bytes) / 1e6 / clips}};
 }
 
 void Run(const Options& options) {
+  const Scratch scratch(options.out);
+  std::vector<std::vector<Measured>> measured(kCases.size());
+  for (int round = 0; round < options.rounds; ++round)
+    for (size_t i = 0; i < kCases.size(); ++i)
+      if (options.only.empty() || options.only == kCases[i].name)
+        measured[i].push_back(
+            RunCase(kCases[i], scratch.path() / (std::to_string(round) + "_" + std::to_string(i)), options));
   Json rows = Json::array();
-  for (const Case& one : kCases)
-    if (options.only.empty() || options.only == one.name) rows.push_back(RunCase(one, options));
+  for (size_t i = 0; i < kCases.size(); ++i)
+    if (const std::vector<Measured>& rounds = measured[i]; !rounds.empty())
+      rows.push_back({{"name", kCases[i].name},
+                      {"clips_per_s", Median(rounds, &Measured::clips_per_s)},
+                      {"cpu_s_per_clip", Median(rounds, &Measured::cpu_s_per_clip)},
+                      {"MB_per_clip", Median(rounds, &Measured::MB_per_clip)},
+                      {"peak_MB", Median(rounds, &Measured::peak_MB)}});
   if (options.only.empty())
     for (const int side_px : {256, 1024}) rows.push_back(RunAuthors(side_px, options));
   Table table({"16-frame clips", "clips/s", "CPU s/clip", "MB/clip", "peak MB"});
@@ -173,8 +193,10 @@ int main(int argc, char** argv) {
   std::vector<std::string> names;
   for (const Case& one : kCases) names.push_back(one.name);
   app.add_option("--pictures", options.pictures, "photographs (default: five of scripts/setup.sh --photos)");
-  app.add_option("--out", options.out, "folder to write in, emptied afterwards (default: the temporary one)");
+  app.add_option("--out", options.out,
+                 "folder to write in, 8 GB a round, emptied afterwards (default: the temporary one)");
   app.add_option("--only", options.only, "one case")->check(CLI::IsMember(names));
+  app.add_option("--rounds", options.rounds, "medians of so many (default: 3)")->check(CLI::PositiveNumber);
   app.add_option("--json", options.json, "write all figures to this file");
   app.add_flag("--quick", options.quick, "tiny clips: does it work at all?");
   CLI11_PARSE(app, argc, argv);

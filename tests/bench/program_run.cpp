@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 
@@ -19,17 +19,9 @@ double Seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-double ResidentMB(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
-  double total = 0, resident = 0;
-  file >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
 }  // namespace
 
-ProgramRun RunProgram(const std::vector<std::string>& words,
-                      const std::function<void(double, double)>& watch) {
+ProgramRun RunProgram(const std::vector<std::string>& words, const std::function<void(double)>& watch) {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -48,7 +40,7 @@ ProgramRun RunProgram(const std::vector<std::string>& words,
   int status = 0;
   rusage usage = {};
   while (wait4(process, &status, WNOHANG, &usage) == 0) {
-    watch(seconds(), ResidentMB(process));
+    watch(seconds());
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(words[0] + ": failed");
@@ -57,9 +49,15 @@ ProgramRun RunProgram(const std::vector<std::string>& words,
           .peak_MB = static_cast<double>(usage.ru_maxrss) * 1024 / 1e6};
 }
 
-int64_t LinesOf(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::count(std::istreambuf_iterator<char>(stream), {}, '\n');
+int64_t LineCounter::Now() {
+  std::ifstream stream(file_, std::ios::binary);
+  stream.seekg(bytes_);
+  std::array<char, 1 << 16> part;
+  while (stream.read(part.data(), part.size()), stream.gcount() > 0) {
+    bytes_ += stream.gcount();
+    lines_ += std::count(part.data(), part.data() + stream.gcount(), '\n');
+  }
+  return lines_;
 }
 
 }  // namespace shimmer::bench
