@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostShown = 500;
-
 // A folder that can't be written to has no writer: an archive may be verified too.
 std::unique_ptr<dataset::FolderLock> LockFolder(const fs::path& folder) {
   try {
@@ -42,10 +40,8 @@ void PrintLine(std::string line) {
 }
 
 void Print(const VerifyOptions& options, const VerifiedSet& found) {
-  const size_t shown = options.quiet ? 0 : std::min(found.problems.size(), kMostShown);
-  for (size_t i = 0; i < shown; ++i) PrintLine(found.problems[i].name + ": " + found.problems[i].text);
-  if (shown > 0 && shown < found.problems.size())
-    PrintLine("and " + Grouped(std::ssize(found.problems) - static_cast<int64_t>(shown)) + " more");
+  if (!options.quiet)
+    for (const dataset::Problem& problem : found.problems) PrintLine(problem.name + ": " + problem.text);
   const std::string failed = found.failed > 0 ? Grouped(found.failed) + " failed, " : "";
   PrintLine(options.folder.string() + ": " + Grouped(found.whole) + " of " + Counted(found.clips, "clip") +
             " whole, " + failed + Counted(found.files, "file") + ", " +
