@@ -242,7 +242,7 @@ def _index_manifests(folder: Path, layout: str) -> tuple[list[Path], np.ndarray,
 
     A manifest's last line of a clip counts, and of several manifests' one that says "done".
     """
-    manifests = sorted(folder.glob("manifest.jsonl")) + sorted(folder.glob("manifest.*.jsonl"))
+    manifests = sorted(folder.glob("manifest.jsonl")) + sorted(folder.glob("manifest.*-of-*.jsonl"))
     if not manifests:
         raise FileNotFoundError(f"{folder}: holds no manifest.jsonl: nothing of it is finished")
     rows: dict[int, tuple[int, ...] | None] = {}
@@ -257,10 +257,12 @@ def _index_manifests(folder: Path, layout: str) -> tuple[list[Path], np.ndarray,
 
 
 def _manifest_lines(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Offset and content of each line. A torn last one (no newline, or no JSON) is not written yet, or never was."""
+    """Offset and content of each line. A torn one is not written yet, or never was."""
     offset = 0
     with open(path, "rb") as file:
         for number, text in enumerate(file, 1):
+            if b"\0" in text:  # a power cut left it: nothing from there on is written
+                return
             try:
                 line = json.loads(text)
             except ValueError:

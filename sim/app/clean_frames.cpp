@@ -37,7 +37,7 @@ bool OutputIsLinear(const Config& config) {
 }
 
 CleanFrames::CleanFrames(const SourceList& sources, dataset::PictureCache& pictures, const Config& config,
-                         sim::ClipKey key)
+                         sim::ClipKey key, const std::atomic<bool>& stop)
     : sources_(sources), config_(config), key_(key) {
   flip_ = config.source.flip && sim::DrawUnit(key, "source.flip") < 0.5;
   record_["flip"] = flip_;
@@ -51,7 +51,7 @@ CleanFrames::CleanFrames(const SourceList& sources, dataset::PictureCache& pictu
   item_ = static_cast<size_t>(
       sim::DrawInteger(key, "source.item", 0, static_cast<int64_t>(sources.items().size()) - 1));
   record_.update(sources.Record(item_));
-  reader_ = sources.Open(item_, pictures);
+  reader_ = sources.Open(item_, pictures, stop);
   if (const std::string remark = sources.Remark(item_); !remark.empty()) record_["remark"] = remark;
   if (still()) return;
 

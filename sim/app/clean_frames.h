@@ -23,9 +23,9 @@ bool OutputIsLinear(const Config& config);
 class CleanFrames {
  public:
   // Chooses the source and the place in it by the clip's hash. Throws std::runtime_error if the source can't
-  // be read or is too small or too short.
+  // be read or is too small or too short, dataset::Interrupted once stop is set and a video is read.
   CleanFrames(const SourceList& sources, dataset::PictureCache& pictures, const Config& config,
-              sim::ClipKey key);
+              sim::ClipKey key, const std::atomic<bool>& stop = dataset::kNeverStop);
 
   bool still() const;
 

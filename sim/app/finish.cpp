@@ -1,6 +1,10 @@
 #include "sim/app/finish.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "sim/app/report.h"
+#include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/dataset_reader.h"
 #include "sim/dataset/derived_files.h"
 
@@ -15,9 +19,12 @@ bool IsFinished(const std::filesystem::path& folder) {
   std::error_code absent;
   const auto report = std::filesystem::last_write_time(folder / kReportName, absent);
   if (absent) return false;
-  for (const auto& manifest : dataset::ManifestsIn(folder))
-    if (std::filesystem::exists(manifest) && std::filesystem::last_write_time(manifest) > report) return false;
-  return true;
+  // Later files, or another number of clips, are not in it.
+  std::vector<std::filesystem::path> shown = dataset::ManifestsIn(folder);
+  shown.push_back(folder / dataset::kDescriptionName);
+  return std::ranges::none_of(shown, [&](const std::filesystem::path& path) {
+    return std::filesystem::exists(path) && std::filesystem::last_write_time(path) > report;
+  });
 }
 
 }  // namespace shimmer::app

@@ -2,6 +2,7 @@
 
 #include <tbb/info.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -91,11 +92,21 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   const MemoryPlan memory = PlanMemory(options.memory_bytes, job.config, threads);
   job.pictures->SetBudget(static_cast<uint64_t>(memory.sources_bytes));
   const int64_t own = CountClips(*writer, clips, options.shard).clips;
-  Progress progress(own, own - static_cast<int64_t>(pending.size()), options.quiet);
-  std::string first_error;
+  const auto to_make = std::ranges::count_if(pending, [&](int64_t clip) { return clip < clips; });
+  Progress progress(own, own - to_make, options.quiet);
+  std::string first_error, kept;
+  const std::set<int64_t> were_done = writer->done();
+  int64_t kept_unit = -1;
   const auto keep = [&](MadeClip made) {
     const bool failed = !made.staged;
-    if (failed) {
+    if (failed && were_done.contains(made.clip)) {
+      // Of a tar that is to be made again: better the clips that are there than a tar without this one
+      kept_unit = writer->layout().UnitOf(made.clip);
+      kept = writer->layout().TarPath(kept_unit) + ": left as it is, for clip " + std::to_string(made.clip) +
+             " can't be made again: " + made.error;
+    } else if (writer->layout().UnitOf(made.clip) == kept_unit) {
+      // As those before it in its tar, it is dropped
+    } else if (failed) {
       made.line["error"] = made.error;
       if (first_error.empty()) first_error = made.error;
       writer->Fail(made.clip, std::move(made.line));
@@ -114,12 +125,13 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!options.quiet) std::printf("%s\n", Summary(options, count, seconds).c_str());
   if (stop) return kExitInterrupted;
+  if (!kept.empty()) PrintError((options.out / kept).string());
   if (count.failed > 0)
-    PrintError((options.out / "manifest.jsonl").string() + ": " + std::to_string(count.failed) +
-               " clips failed, " +
+    PrintError((options.out / ("manifest" + options.shard.Suffix() + ".jsonl")).string() + ": " +
+               std::to_string(count.failed) + " clips failed, " +
                (first_error.empty() ? "all in an earlier run" : "the first with: " + first_error) +
                "; \"error\" of their lines says why");
-  return count.failed > 0 ? kExitFailed : kExitDone;
+  return count.failed > 0 || !kept.empty() ? kExitFailed : kExitDone;
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void MakeClip(const Job& job, int64_t clip, const std::atomic<bool>& stop,
               const std::function<void(const dataset::ClipFile&)>& keep, Json& line) {
   const Config config = job.config.Draw(static_cast<uint64_t>(clip), &line["drawn"]);
   const sim::ClipKey key{config.seed, static_cast<uint64_t>(clip)};
-  CleanFrames clean(job.sources, *job.pictures, config, key);
+  CleanFrames clean(job.sources, *job.pictures, config, key, stop);
   line["source"] = clean.record();  // so far, should a frame turn out to be bad
   const sim::Scene scene = SceneOf(config, clean.still());
   const sim::ClipPlan plan = PlanOf(config, clean.still());

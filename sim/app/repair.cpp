@@ -11,8 +11,8 @@
 #include "sim/app/origin.h"
 #include "sim/app/progress.h"
 #include "sim/dataset/dataset_folder.h"
-#include "sim/dataset/merge.h"
 #include "sim/dataset/pending.h"
+#include "sim/dataset/unite.h"
 
 namespace shimmer::app {
 namespace {
@@ -62,7 +62,9 @@ std::vector<int64_t> ClipsToMake(const fs::path& folder, const VerifiedSet& foun
 }
 
 // The manifest as one file with a line a clip, in their order.
-void TidyManifest(const fs::path& folder) { dataset::UniteManifests(folder, LeaveOut); }
+void TidyManifest(const fs::path& folder) {
+  dataset::UniteManifests(folder, dataset::FolderLock(folder, {}), LeaveOut);
+}
 
 void MakeAgain(const fs::path& folder, const Job& job, const std::vector<int64_t>& clips, int threads,
                bool quiet, const std::atomic<bool>& stop, Repaired& repaired) {

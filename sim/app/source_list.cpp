@@ -108,6 +108,8 @@ SourceList SourceList::Find(const SourceParams& source, const fs::path& config_f
   named.erase(repeats.begin(), repeats.end());
   list.items_.clear();
   for (const auto& [name, item] : named) list.items_.push_back(item);
+  if (list.kind_ == SourceKind::kVideo)
+    list.videos_ = std::make_unique<std::vector<VideoFacts>>(list.items_.size());
   list.hashes_ = std::make_shared<dataset::HashMemory>(out);
   const std::vector<Json> hashes = HashesOf(list.items_, list.kind_, *list.hashes_, stop);
   for (size_t i = 0; i < named.size(); ++i)
@@ -120,7 +122,8 @@ void SourceList::Remember(const fs::path& out) {
   hashes_.reset();
 }
 
-std::unique_ptr<dataset::FrameReader> SourceList::Open(size_t item, dataset::PictureCache& pictures) const {
+std::unique_ptr<dataset::FrameReader> SourceList::Open(size_t item, dataset::PictureCache& pictures,
+                                                       const std::atomic<bool>& stop) const {
   switch (kind_) {
     case SourceKind::kImages:
       return dataset::OpenStill(items_.at(item), &pictures);
@@ -131,19 +134,18 @@ std::unique_ptr<dataset::FrameReader> SourceList::Open(size_t item, dataset::Pic
     case SourceKind::kVideo:
       break;
   }
-  const std::lock_guard guard(videos_->mutex);
-  const auto known = videos_->of_item.find(item);
-  if (known != videos_->of_item.end()) return dataset::OpenVideo(items_.at(item), known->second.frames);
-  auto reader = dataset::OpenVideo(items_.at(item));
-  const int64_t frames = reader->count();
-  videos_->of_item[item] = {frames, reader->remark()};
+  VideoFacts& facts = videos_->at(item);
+  const std::lock_guard guard(facts.mutex);
+  auto reader = dataset::OpenVideo(items_.at(item), facts.frames, stop);
+  if (!facts.frames) facts.frames = reader->count(), facts.remark = reader->remark();
   return reader;
 }
 
 std::string SourceList::Remark(size_t item) const {
-  const std::lock_guard guard(videos_->mutex);
-  const auto known = videos_->of_item.find(item);
-  return known == videos_->of_item.end() ? "" : known->second.remark;
+  if (!videos_) return "";
+  VideoFacts& facts = videos_->at(item);
+  const std::lock_guard guard(facts.mutex);
+  return facts.remark;
 }
 
 }  // namespace shimmer::app

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,26 +45,25 @@ class SourceList {
 
   // Pictures are read through the cache, which must outlive the reader. Throws std::runtime_error. A video's
   // frames are counted once, by decoding it, for all clips that use it.
-  std::unique_ptr<dataset::FrameReader> Open(size_t item, dataset::PictureCache& pictures) const;
+  // Reading a video throws dataset::Interrupted once stop is set, which must outlive the reader.
+  std::unique_ptr<dataset::FrameReader> Open(size_t item, dataset::PictureCache& pictures,
+                                             const std::atomic<bool>& stop = dataset::kNeverStop) const;
 
   // What is odd about a video that has been opened; empty if nothing.
   std::string Remark(size_t item) const;
 
  private:
   struct VideoFacts {
-    int64_t frames = 0;
+    std::mutex mutex;  // whoever asks while they are being found waits
+    std::optional<int64_t> frames;
     std::string remark;
-  };
-  struct KnownVideos {
-    std::mutex mutex;
-    std::map<size_t, VideoFacts> of_item;
   };
 
   SourceKind kind_ = SourceKind::kDrawn;
   std::vector<std::filesystem::path> items_;
   Json records_ = Json::array();
-  std::shared_ptr<dataset::HashMemory> hashes_;  // until they are remembered
-  std::shared_ptr<KnownVideos> videos_ = std::make_shared<KnownVideos>();
+  std::shared_ptr<dataset::HashMemory> hashes_;      // until they are remembered
+  std::unique_ptr<std::vector<VideoFacts>> videos_;  // of each item, where they are videos
 };
 
 }  // namespace shimmer::app

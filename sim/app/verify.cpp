@@ -1,11 +1,9 @@
 #include "sim/app/verify.h"
 
 #include <tbb/info.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <stdexcept>
 
 #include "sim/app/generate.h"
@@ -19,18 +17,6 @@ namespace shimmer::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder that can't be written to has no writer: an archive may be verified too.
-std::unique_ptr<dataset::FolderLock> LockFolder(const fs::path& folder) {
-  try {
-    return std::make_unique<dataset::FolderLock>(folder, dataset::Shard{});
-  } catch (const dataset::FolderBusy&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    if (access(folder.c_str(), W_OK) == 0) throw;
-    return nullptr;
-  }
-}
 
 // One line, whatever bytes a file's name has.
 void PrintLine(std::string line) {
@@ -54,7 +40,7 @@ int VerifyAndRepair(const VerifyOptions& options, const std::atomic<bool>& stop)
                                 dataset::kDescriptionName + " in it)");
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const auto verify = [&](const VerifiedSet* before) {
-    const auto lock = LockFolder(options.folder);
+    const auto lock = dataset::LockToRead(options.folder);
     return VerifySet(options.folder, before, threads, options.quiet, stop);
   };
   VerifiedSet found = verify(nullptr);

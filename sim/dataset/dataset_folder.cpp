@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -29,6 +30,18 @@ void RefuseForeignFolder(const fs::path& folder) {
     throw std::invalid_argument(folder.string() + ": holds other files (" + name +
                                 ") and no data set; give a new or an empty folder");
   }
+}
+
+// A source that can't be read now is still the one that it was.
+Json WithKnownHashes(const Json& there, const Json& description) {
+  std::map<std::string, Json> known;
+  for (const Json& source : there) known[source.value("path", "")] = source.value("sha256", Json());
+  Json sources = description.value("sources", Json::array());
+  for (Json& source : sources) {
+    const auto found = known.find(source.value("path", ""));
+    if (found != known.end() && source.value("sha256", Json()).is_null()) source["sha256"] = found->second;
+  }
+  return sources;
 }
 
 }  // namespace
@@ -71,15 +84,17 @@ Json ReadDescription(const fs::path& folder) {
 }
 
 void WriteDescription(const fs::path& folder, const Json& description) {
+  Json written = description;
   if (fs::exists(folder / kDescriptionName)) {
     const Json there = ReadDescription(folder);
     const std::vector<std::string> differences = Differences(there, description);
     if (!differences.empty())
       throw std::invalid_argument(folder.string() + ": holds a data set made from something else: " +
                                   InOneLine(differences) + ". Give another folder, or make the same again");
-    if (there == description) return;
+    written["sources"] = WithKnownHashes(there.value("sources", Json::array()), description);
+    if (there == written) return;
   }
-  const std::string text = description.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = written.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   WriteDatasetFile(folder, kDescriptionName, AsBytes(text));
 }
 

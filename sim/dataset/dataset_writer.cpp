@@ -11,6 +11,7 @@
 #include "sim/dataset/own_entries.h"
 #include "sim/dataset/sha256.h"
 #include "sim/dataset/tar_swap.h"
+#include "sim/dataset/unite.h"
 
 namespace shimmer::dataset {
 namespace {
@@ -41,10 +42,17 @@ DatasetWriter::DatasetWriter(fs::path folder, Layout layout, const Json& descrip
              RequireOwnEntries(folder_, layout_), FolderLock(folder_, shard))),
       clips_((WriteDescription(folder_, description), description.at("config").value("clips", int64_t{0}))),
       manifest_(ManifestsIn(folder_)),
-      lines_(ManifestOf(folder_, shard), manifest_.whole_bytes(ManifestOf(folder_, shard))),
       done_(manifest_.done()),
       failed_(manifest_.failed()) {
+  RequireSameShards(shard);
   CleanUp(shard);
+  if (shard.whole() && manifest_.paths().size() > 1) {
+    // A shard's line must not count for more than one that is written now.
+    UniteManifests(folder_, lock_);
+    manifest_ = Manifest(ManifestsIn(folder_));
+  }
+  const fs::path own = ManifestOf(folder_, shard);
+  lines_.emplace(own, manifest_.whole_bytes(own));
   commits_ = std::make_unique<GroupCommit<Entry>>(
       kMostWaiting, [this](std::vector<Entry> group) { CommitGroup(std::move(group)); });
 }
@@ -192,7 +200,7 @@ void DatasetWriter::AppendLines(std::vector<Entry>& entries) {
     const bool known = entry.staged && manifest_.done().contains(entry.clip);
     if (!known || manifest_.Line(entry.clip) != entry.line) lines.push_back(std::move(entry.line));
   }
-  lines_.Append(lines);
+  lines_->Append(lines);
   if (layout_.IsTars()) DropKeptTars(staging_);
   for (const Entry& entry : entries) Note(entry.clip, entry.staged.has_value());
 }
@@ -211,7 +219,11 @@ void DatasetWriter::Adopt(const fs::path& from, const std::vector<Json>& lines) 
   std::set<fs::path> changed;
   MakeFolders(staging_);
   for (const std::string& path : paths) {
+    if (!layout_.PlaceOf(path) && !layout_.UnitOfTar(path))
+      throw std::runtime_error(from.string() + ": its manifest names '" + path +
+                               "', which is no place for a file of such a set");
     const fs::path to = folder_ / path, beside = staging_ / "adopted";
+    if (layout_.IsTars()) KeepTar(to, staging_);
     MakeFolders(to.parent_path());
     LinkOrCopy(from / path, beside);
     Rename(beside, to);
@@ -220,7 +232,8 @@ void DatasetWriter::Adopt(const fs::path& from, const std::vector<Json>& lines) 
   }
   FileHandle(folder_, O_RDONLY | O_DIRECTORY).SyncFileSystem();
   for (const fs::path& folder : changed) SyncFolder(folder);
-  lines_.Append(lines);
+  lines_->Append(lines);
+  if (layout_.IsTars()) DropKeptTars(staging_);
   for (const Json& line : lines)
     Note(line.at("clip").get<int64_t>(), line.at("status").get<std::string>() == "done");
 }

@@ -27,10 +27,11 @@ namespace shimmer::dataset {
 
 class DatasetWriter {
  public:
-  // Opens or makes the folder. description: what dataset.json says (dataset_difference.h).
-  // Throws std::invalid_argument: the folder holds other files or links, or a data set made from something else (each
-  // difference is named; `clips` may differ). Throws FolderBusy: another process writes there, and
-  // std::runtime_error: it can't be written; its manifest is damaged.
+  // Opens or makes the folder. Manifests of shards are made one where the whole set is written. description:
+  // what dataset.json says (dataset_difference.h). Throws std::invalid_argument: the folder holds other files
+  // or links, or a data set made from something else (each difference is named; `clips` may differ), tars of
+  // shards of another count. Throws FolderBusy: another process writes there, and std::runtime_error: it
+  // can't be written; its manifest is damaged.
   DatasetWriter(std::filesystem::path folder, Layout layout, const Json& description,
                 const Shard& shard = {});
 
@@ -77,6 +78,7 @@ class DatasetWriter {
   void PublishTar(std::vector<Entry>& unit) const;
   void AppendLines(std::vector<Entry>& entries);
   void Note(int64_t clip, bool done);
+  void RequireSameShards(const Shard& shard) const;
   std::vector<Entry> CompleteUnits(std::vector<Entry> group);
   void CleanUp(const Shard& shard) const;
   void Remove(int64_t clip) const;
@@ -86,7 +88,7 @@ class DatasetWriter {
   FolderLock lock_;
   int64_t clips_;      // of the config
   Manifest manifest_;  // as it was when this process began
-  ManifestWriter lines_;
+  std::optional<ManifestWriter> lines_;
   mutable std::mutex mutex_;  // of what follows
   std::set<int64_t> done_, failed_;
   std::vector<Entry> unit_;  // of a tar that is not complete; of the committing thread alone

@@ -1,15 +1,31 @@
 // What DatasetWriter does for sets of tars: a tar is written when all its clips are there.
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 
 #include "sim/dataset/dataset_writer.h"
 #include "sim/dataset/numbered_name.h"
+#include "sim/dataset/pending.h"
 #include "sim/dataset/tar.h"
 #include "sim/dataset/tar_swap.h"
 
 namespace shimmer::dataset {
 
 namespace fs = std::filesystem;
+
+// Tars that shards of another count have written may be written again by this one; of two manifests with a
+// clip the right one would be anyone's guess.
+void DatasetWriter::RequireSameShards(const Shard& shard) const {
+  if (shard.whole() || !layout_.IsTars()) return;
+  for (const fs::path& path : manifest_.paths()) {
+    const std::optional<Shard> other = ShardOfManifest(path.filename().string());
+    if (other && other->count != shard.count)
+      throw std::invalid_argument(folder_.string() + ": shards of " + std::to_string(other->count) +
+                                  " have written tars there (" + path.filename().string() +
+                                  "): make one set of them with `shimmer merge` before shards of " +
+                                  std::to_string(shard.count));
+  }
+}
 
 // Of a set of tars: the entries whose tar is complete with them. The rest waits.
 std::vector<DatasetWriter::Entry> DatasetWriter::CompleteUnits(std::vector<Entry> group) {
@@ -18,7 +34,7 @@ std::vector<DatasetWriter::Entry> DatasetWriter::CompleteUnits(std::vector<Entry
     const int64_t unit = layout_.UnitOf(entry.clip);
     if (!unit_.empty() && layout_.UnitOf(unit_.front().clip) != unit) unit_.clear();
     unit_.push_back(std::move(entry));
-    const int64_t end = std::min((unit + 1) * layout_.clips_per_tar, clips_);
+    const int64_t end = UnitEnd(layout_, unit, clips_, manifest_.done(), manifest_.failed());
     if (unit * layout_.clips_per_tar + static_cast<int64_t>(unit_.size()) < end) continue;
     std::ranges::move(unit_, std::back_inserter(complete));
     unit_.clear();

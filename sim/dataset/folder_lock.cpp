@@ -200,4 +200,15 @@ FolderLock::FolderLock(const fs::path& folder, const Shard& shard)
 FolderLock::~FolderLock() = default;
 FolderLock::FolderLock(FolderLock&&) noexcept = default;
 
+std::unique_ptr<FolderLock> LockToRead(const fs::path& folder) {
+  try {
+    return std::make_unique<FolderLock>(folder, Shard{});
+  } catch (const FolderBusy&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    if (access(folder.c_str(), W_OK) == 0) throw;
+    return nullptr;
+  }
+}
+
 }  // namespace shimmer::dataset

@@ -37,4 +37,8 @@ class FolderLock {
   std::unique_ptr<Held> held_;
 };
 
+// The lock of the whole set for one who only reads; none where the folder can't be written to, for then
+// nobody writes: an archive may be read too. Throws as FolderLock.
+std::unique_ptr<FolderLock> LockToRead(const std::filesystem::path& folder);
+
 }  // namespace shimmer::dataset

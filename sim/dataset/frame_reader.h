@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/dataset/image_io.h"
+#include "sim/dataset/interrupted.h"
 #include "sim/dataset/picture_cache.h"
 
 namespace shimmer::dataset {
@@ -38,8 +39,9 @@ std::unique_ptr<FrameReader> OpenSequence(const std::filesystem::path& sequence,
 
 // Frames are decoded forward from the start, never sought: the same frame whatever was read before. 8-bit
 // RGB. count() decodes the video once, since headers lie; known_count, from an earlier reader of the file,
-// saves that.
+// saves that. Reading throws Interrupted once stop is set, which must outlive the reader.
 std::unique_ptr<FrameReader> OpenVideo(const std::filesystem::path& path,
-                                       std::optional<int64_t> known_count = {});
+                                       std::optional<int64_t> known_count = {},
+                                       const std::atomic<bool>& stop = kNeverStop);
 
 }  // namespace shimmer::dataset

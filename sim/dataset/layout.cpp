@@ -159,7 +159,7 @@ std::optional<FrameKind> KindOfPath(const std::string& path) {
                : named(name.substr(dot + 1, next - dot - 1));
   }
   // The innermost folder that has such a name: output.name may be one too.
-  for (auto folder = whole.parent_path(); !folder.empty(); folder = folder.parent_path())
+  for (auto folder = whole.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
     if (const auto kind = named(folder.filename().string())) return kind;
   return {};
 }

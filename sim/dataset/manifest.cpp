@@ -94,6 +94,8 @@ void Manifest::Read(uint32_t file_index, const Damaged& damaged) {
     }
     whole_bytes += line.size() + 1;
   }
+  // Lines that can't be read are not lines that are not there.
+  if (file.bad()) throw std::runtime_error(path.string() + ": can't be read to its end");
 }
 
 void Manifest::Note(const std::string& line, Place place) {
@@ -133,6 +135,7 @@ Json Manifest::LineAt(std::ifstream& file, int64_t clip, Place place) const {
   file.seekg(static_cast<std::streamoff>(place.offset));
   std::string line;
   std::getline(file, line);
+  if (!file.is_open()) throw std::runtime_error(paths_[place.file].string() + ": can't be read");
   Json json = Json::parse(line, nullptr, /*allow_exceptions=*/false);
   if (!file || !json.is_object() || json.value("clip", int64_t{-1}) != clip)
     throw std::runtime_error(paths_[place.file].string() + ": has changed since it was read");
@@ -140,14 +143,21 @@ Json Manifest::LineAt(std::ifstream& file, int64_t clip, Place place) const {
 }
 
 void Manifest::ForEachLine(const std::function<void(int64_t, const Json&)>& visit) const {
-  std::vector<std::ifstream> files;
-  for (const fs::path& path : paths_) files.emplace_back(path, std::ios::binary);
-  for (const auto& [clip, place] : places_) visit(clip, LineAt(files[place.file], clip, place));
+  constexpr size_t kMostOpen = 64;  // of perhaps thousands of shards'
+  std::map<uint32_t, std::ifstream> files;
+  for (const auto& [clip, place] : places_) {
+    if (!files.contains(place.file)) {
+      if (files.size() == kMostOpen) files.clear();
+      files[place.file].open(paths_[place.file], std::ios::binary);
+    }
+    visit(clip, LineAt(files.at(place.file), clip, place));
+  }
 }
 
 ManifestWriter::ManifestWriter(const fs::path& path, uint64_t whole_bytes)
     : file_(path, O_CREAT | O_WRONLY | O_APPEND), whole_bytes_(whole_bytes) {
-  file_.Truncate(whole_bytes);
+  // Nothing is changed, not even its date, where there is nothing to cut.
+  if (std::filesystem::file_size(path) != whole_bytes) file_.Truncate(whole_bytes);
   file_.Sync();
   SyncFolder(path.parent_path());
 }

@@ -1,14 +1,12 @@
 #include "sim/dataset/merge.h"
 
-#include <fcntl.h>
-
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "sim/dataset/dataset_difference.h"
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/dataset_reader.h"
-#include "sim/dataset/files.h"
-#include "sim/dataset/glob.h"
 
 namespace shimmer::dataset {
 namespace {
@@ -18,61 +16,60 @@ namespace fs = std::filesystem;
 // Clips that are made durable at once.
 constexpr size_t kClipsAtOnce = 500;
 
+// Of the lines of a unit in another set, those that are to be taken over.
+std::vector<Json> WorthTaking(std::vector<Json> unit, const DatasetReader& other, const DatasetWriter& writer,
+                              const std::set<int64_t>& done, const std::set<int64_t>& failed) {
+  const auto clip_of = [](const Json& line) { return line.at("clip").get<int64_t>(); };
+  const auto is_in = [&](const std::set<int64_t>& clips) {
+    return [&](const Json& line) { return clips.contains(clip_of(line)); };
+  };
+  const int64_t per_unit = writer.layout().ClipsPerUnit(),
+                first = writer.layout().UnitOf(clip_of(unit.front())) * per_unit;
+  const auto done_here = std::distance(done.lower_bound(first), done.lower_bound(first + per_unit));
+  const auto done_there = std::ranges::count_if(unit, is_in(other.clips()));
+  const bool has_all = std::ranges::count_if(unit, [&](const Json& line) {
+                         return is_in(other.clips())(line) && is_in(done)(line);
+                       }) == done_here;
+  if (done_there > done_here && has_all) return unit;
+  if (done_here > 0 || done_there > 0) return {};
+  std::erase_if(unit, is_in(failed));
+  return unit;
+}
+
 }  // namespace
 
-void Adopt(DatasetWriter& writer, const fs::path& from) {
-  const FolderLock lock(from, {});
-  const DatasetReader other(from);
-  const std::vector<std::string> differences =
-      Differences(ReadDescription(writer.folder()), other.description());
+void RequireSameDataset(const fs::path& from, const Json& description, const fs::path& described) {
+  const std::vector<std::string> differences = Differences(description, ReadDescription(from));
   if (!differences.empty())
-    throw std::invalid_argument(from.string() + ": is made from something else than " +
-                                writer.folder().string() + ": " + InOneLine(differences));
+    throw std::invalid_argument(from.string() + ": is made from something else than " + described.string() +
+                                ": " + InOneLine(differences));
+}
+
+void Adopt(DatasetWriter& writer, const fs::path& from) {
+  RequireSameDataset(from, ReadDescription(writer.folder()), writer.folder());
+  const auto lock = LockToRead(from);
+  const DatasetReader other(from);
   const std::set<int64_t> done = writer.done(), failed = writer.failed();
-  std::vector<Json> lines;
-  const auto add = [&] {
+  std::vector<Json> lines, unit;
+  const auto end_unit = [&] {
+    if (unit.empty()) return;
+    std::ranges::move(WorthTaking(std::move(unit), other, writer, done, failed), std::back_inserter(lines));
+    unit.clear();
+  };
+  const auto take_over = [&] {
     writer.Adopt(from, lines);
     lines.clear();
   };
   other.manifest().ForEachLine([&](int64_t clip, const Json& line) {
-    const bool is_done = other.clips().contains(clip);
-    if (done.contains(clip) || (!is_done && failed.contains(clip))) return;
-    lines.push_back(line);
-    // Clips of one tar stay together.
-    if (lines.size() >= kClipsAtOnce && (clip + 1) % writer.layout().ClipsPerUnit() == 0) add();
-  });
-  add();
-}
-
-void UniteManifests(const fs::path& folder, const Manifest::Damaged& damaged) {
-  const FolderLock lock(folder, {});
-  const std::vector<fs::path> manifests = ManifestsIn(folder);
-  {
-    const fs::path beside = folder / kStagingName / kManifestName;
-    MakeFolders(beside.parent_path());
-    const Manifest all(manifests, damaged);
-    RemoveAll(beside);
-    {
-      ManifestWriter united(beside, 0);
-      std::vector<Json> lines;
-      const auto add = [&] {
-        united.Append(lines);
-        lines.clear();
-      };
-      all.ForEachLine([&](int64_t, const Json& line) {
-        lines.push_back(line);
-        if (lines.size() >= kClipsAtOnce) add();
-      });
-      add();
+    const auto unit_of = [&](int64_t any) { return writer.layout().UnitOf(any); };
+    if (!unit.empty() && unit_of(unit.front().at("clip").get<int64_t>()) != unit_of(clip)) {
+      end_unit();
+      if (lines.size() >= kClipsAtOnce) take_over();
     }
-    Rename(beside, manifests[0]);
-    SyncFolder(folder);
-    for (size_t i = 1; i < manifests.size(); ++i) RemoveAll(manifests[i]);
-  }
-  RemoveAll(folder / kStagingName);
-  for (const char* of_shards : {kLockName, kStagingName})
-    for (const fs::path& left : ExpandGlob(folder, std::string(of_shards) + ".*-of-*")) RemoveAll(left);
-  SyncFolder(folder);
+    unit.push_back(line);
+  });
+  end_unit();
+  take_over();
 }
 
 }  // namespace shimmer::dataset

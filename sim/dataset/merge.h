@@ -1,4 +1,4 @@
-// Shards into one data set.
+// Data sets into one.
 #pragma once
 
 #include <filesystem>
@@ -7,15 +7,16 @@
 
 namespace shimmer::dataset {
 
-// Brings the clips of another folder that writer's has not into it: their files are linked where both folders
-// lie in one file system, else copied, and stay in `from` as they are. Clips that failed there and are not
-// known here are noted as failed. Throws std::invalid_argument where `from` is made from something else (each
-// difference is named), FolderBusy where a process writes to it, and std::runtime_error.
-void Adopt(DatasetWriter& writer, const std::filesystem::path& from);
+// Throws std::invalid_argument where the data set of a folder is made from something else than this
+// description (each difference is named), and std::runtime_error where it is none.
+void RequireSameDataset(const std::filesystem::path& from, const Json& description,
+                        const std::filesystem::path& described);
 
-// Makes one manifest of manifest.jsonl and those of the shards: the line of each clip that counts, in the
-// order of the clips. What shards leave (their manifests, locks and staging) goes. damaged: Manifest's; such
-// lines are left out. Throws FolderBusy while a process writes to the folder.
-void UniteManifests(const std::filesystem::path& folder, const Manifest::Damaged& damaged = {});
+// Brings the clips of another folder that writer's has not into it: their files are linked where both folders
+// lie in one file system, else copied, and stay in `from` as they are, which may be read-only. Clips that
+// failed there and are not known here are noted as failed. A tar comes whole, where it has all that there is
+// here and more. Throws as RequireSameDataset, FolderBusy where a process writes to `from`, and
+// std::runtime_error.
+void Adopt(DatasetWriter& writer, const std::filesystem::path& from);
 
 }  // namespace shimmer::dataset

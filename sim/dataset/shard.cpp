@@ -1,5 +1,7 @@
 #include "sim/dataset/shard.h"
 
+#include <cinttypes>
+#include <cstdio>
 #include <stdexcept>
 
 #include "sim/dataset/numbered_name.h"
@@ -14,6 +16,16 @@ void Shard::Validate() const {
 
 std::string Shard::Suffix() const {
   return whole() ? "" : "." + Padded(index, 3) + "-of-" + Padded(count, 3);
+}
+
+std::optional<Shard> ShardOfManifest(const std::string& name) {
+  Shard shard;
+  int end = 0;
+  if (std::sscanf(name.c_str(), "manifest.%9" SCNd64 "-of-%9" SCNd64 ".jsonl%n", &shard.index, &shard.count,
+                  &end) != 2)
+    return {};
+  const bool is_shard = shard.count > 1 && shard.index >= 0 && shard.index < shard.count;
+  return is_shard && name == "manifest" + shard.Suffix() + ".jsonl" ? std::optional(shard) : std::nullopt;
 }
 
 }  // namespace shimmer::dataset

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace shimmer::dataset {
@@ -20,5 +21,8 @@ struct Shard {
 
   friend bool operator==(const Shard&, const Shard&) = default;
 };
+
+// Whose manifest has such a name: of manifest.003-of-008.jsonl, {3, 8}; nothing of any other.
+std::optional<Shard> ShardOfManifest(const std::string& name);
 
 }  // namespace shimmer::dataset

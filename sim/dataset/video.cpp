@@ -24,15 +24,15 @@ cv::VideoCapture Capture(const fs::path& path) {
 
 class Video : public FrameReader {
  public:
-  Video(const fs::path& path, std::optional<int64_t> known_count)
-      : path_(path), capture_(Capture(path)), count_(known_count) {}
+  Video(const fs::path& path, std::optional<int64_t> known_count, const std::atomic<bool>& stop)
+      : path_(path), capture_(Capture(path)), count_(known_count), stop_(stop) {}
 
   int64_t count() override {
     if (!count_) {
       cv::VideoCapture counter = Capture(path_);
       const auto promised = static_cast<int64_t>(counter.get(cv::CAP_PROP_FRAME_COUNT));
       int64_t decoded = 0;
-      while (counter.grab()) ++decoded;
+      while (Grab(counter)) ++decoded;
       if (decoded == 0) throw std::runtime_error(path_.string() + ": no frame of this video can be decoded");
       if (decoded < promised)
         remark_ = "its header promises " + std::to_string(promised) + " frames, " + std::to_string(decoded) +
@@ -49,7 +49,7 @@ class Video : public FrameReader {
       next_frame_ = 0;
     }
     for (; next_frame_ <= frame; ++next_frame_)
-      if (!capture_.grab())
+      if (!Grab(capture_))
         throw std::runtime_error(path_.string() + ": ends before frame " + std::to_string(frame));
     cv::Mat bgr;
     if (!capture_.retrieve(bgr) || bgr.type() != CV_8UC3)
@@ -62,17 +62,25 @@ class Video : public FrameReader {
   std::string remark() const override { return remark_; }
 
  private:
+  // A frame is far from the next key frame, or the count of an hour of them: the person may not want to wait.
+  bool Grab(cv::VideoCapture& capture) const {
+    if (stop_) throw Interrupted();
+    return capture.grab();
+  }
+
   fs::path path_;
   cv::VideoCapture capture_;
   std::optional<int64_t> count_;
   int64_t next_frame_ = 0;  // what grab() takes next
   std::string remark_;
+  const std::atomic<bool>& stop_;
 };
 
 }  // namespace
 
-std::unique_ptr<FrameReader> OpenVideo(const fs::path& path, std::optional<int64_t> known_count) {
-  return std::make_unique<Video>(path, known_count);
+std::unique_ptr<FrameReader> OpenVideo(const fs::path& path, std::optional<int64_t> known_count,
+                                       const std::atomic<bool>& stop) {
+  return std::make_unique<Video>(path, known_count, stop);
 }
 
 }  // namespace shimmer::dataset

@@ -63,6 +63,53 @@ TEST(Shards, OfOtherSetsAreRefused) {
   ExpectOneLine(Shimmer(folder, {"merge", "a", "b"}), 2, {"b: is made from something else than a", "/seed"});
   EXPECT_EQ(dataset::DatasetReader(folder / "a").clips().size(), 4u);
   ExpectOneLine(Shimmer(folder, {"merge", "nothing"}), 1, {"nothing: not a data set"});
+  // Nothing is begun before all have been looked at.
+  ExpectOneLine(Shimmer(folder, {"merge", "new", "a", "b"}), 2, {"b: is made from something else than a"});
+  EXPECT_FALSE(fs::exists(folder / "new"));
+  folder.Put("photos/1.png", "x");
+  ExpectOneLine(Shimmer(folder, {"merge", "a", "photos"}), 1, {"photos: not a data set"});
+  EXPECT_EQ(NamesIn(folder / "photos"), std::set<std::string>{"1.png"});
+}
+
+TEST(Shards, OfTwoCountsAreOneSetToo) {
+  const TempFolder folder;
+  folder.Put("c.json", ConfigOf("sequence"));
+  ExpectDone(Generate(folder, "c.json", "set", {"--shard", "0/4"}));
+  ExpectDone(Generate(folder, "c.json", "set", {"--shard", "1/3"}));
+  folder.Put("set/manifest.a-of-b.jsonl", "");
+  const Ran merged = Shimmer(folder, {"merge", "set"});
+  EXPECT_EQ(merged.exit_code, 1);
+  EXPECT_EQ(merged.out, "set: 3 of 7 clips done, 0 failed\n4 clips missing\n");
+}
+
+// A data set may come from anywhere.
+TEST(Shards, WriteNothingOutside) {
+  const TempFolder folder;
+  folder.Put("c.json", ConfigOf("sequence"));
+  ExpectDone(Generate(folder, "c.json", "in/a"));
+  folder.Put("treasure", "mine");
+  std::string manifest = ReadText(folder / "in/a/manifest.jsonl");
+  for (const std::string& path : Words{"../../treasure", folder / "treasure", "dataset.json"}) {
+    std::string changed = manifest;
+    const std::string own = "clips/000000/turb/0000.png";
+    changed.replace(changed.find(own), own.size(), path);
+    dataset::WriteFile(folder / "in/a/manifest.jsonl", dataset::AsBytes(changed));
+    fs::remove_all(folder / "in/b");
+    ExpectOneLine(Shimmer(folder, {"merge", "in/b", "in/a"}), 1, {"in/a: its manifest names '" + path + "'"});
+    EXPECT_EQ(ReadText(folder / "treasure"), "mine");
+  }
+}
+
+// A run that finds nothing to do does nothing.
+TEST(Shards, AFinishedSetIsNotDrawnAgain) {
+  const TempFolder folder;
+  folder.Put("c.json", ConfigOf("sequence"));
+  ExpectDone(Generate(folder, "c.json", "set"));
+  const auto report = fs::last_write_time(folder / "set/report.html"),
+             manifest = fs::last_write_time(folder / "set/manifest.jsonl");
+  ExpectDone(Generate(folder, "c.json", "set"));
+  EXPECT_EQ(fs::last_write_time(folder / "set/report.html"), report);
+  EXPECT_EQ(fs::last_write_time(folder / "set/manifest.jsonl"), manifest);
 }
 
 TEST(Shards, AreSaidAsIOfN) {

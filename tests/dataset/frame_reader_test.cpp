@@ -117,6 +117,16 @@ TEST_F(VideoFile, AKnownCountIsTakenAsItIs) {
   EXPECT_TRUE(Contains(ErrorOf<std::runtime_error>([&] { wrong->Read(kFrames); }), "ends before frame 12"));
 }
 
+TEST_F(VideoFile, NobodyWaitsForItWhoHasAskedToStop) {
+  std::atomic<bool> stop{false};
+  const auto reader = OpenVideo(path_, {}, stop), known = OpenVideo(path_, kFrames, stop);
+  stop = true;
+  EXPECT_THROW(reader->count(), Interrupted);
+  EXPECT_THROW(known->Read(5), Interrupted);
+  stop = false;
+  ExpectFrame(known->Read(5), 5);
+}
+
 TEST_F(VideoFile, CutOffItHasTheFramesThatDecode) {
   const std::vector<uint8_t> whole = ReadFile(path_);
   const auto reader = OpenVideo(folder_.Put("cut.avi", std::span(whole).first(whole.size() / 2)));

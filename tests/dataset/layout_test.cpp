@@ -71,8 +71,8 @@ TEST(Layout, AKindIsKnownByItsPath) {
         const Layout layout{.kind = kind, .name = name};
         EXPECT_EQ(KindOfPath(layout.Path(frame_kind, 1234, 0)), frame_kind);
       }
-  for (const char* path :
-       {"", "dataset.json", "gt", "clips/000000/mask/0000.png", "shards/000000.tar/000001.json"})
+  for (const char* path : {"", "/", "/dataset.json", "dataset.json", "gt", "clips/000000/mask/0000.png",
+                           "shards/000000.tar/000001.json"})
     EXPECT_FALSE(KindOfPath(path)) << path;
 }
 
@@ -99,8 +99,8 @@ TEST(Layout, APathLeadsBackToItsClip) {
       for (const std::string& other : {"x" + path, path + "x", "sub/" + path, path.substr(1), "0" + path,
                                        path.substr(0, path.size() - 4) + ".exr"})
         EXPECT_FALSE(layout.PlaceOf(other)) << other;
-      for (const char* other :
-           {"", "7", "turb/7", "clips/000007", "dataset.json", "turb/99999999999999999999.png"})
+      for (const char* other : {"", "7", "/7.png", "/set/7.png", "../../7.png", "turb/7", "clips/000007",
+                                "dataset.json", "turb/99999999999999999999.png"})
         EXPECT_FALSE(layout.PlaceOf(other)) << other;
     }
   const Layout tars{.kind = LayoutKind::kWebdataset, .clips_per_tar = 7};

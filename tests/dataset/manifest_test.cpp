@@ -47,6 +47,33 @@ TEST(Manifest, EveryLineThatCountsOnceInTheOrderOfItsClip) {
   EXPECT_THROW(lines(manifest), std::runtime_error);  // has changed meanwhile
 }
 
+// More than are kept open, and clips that lie in one after the other.
+TEST(Manifest, OfAHundredShards) {
+  const TempFolder folder;
+  constexpr int kShards = 100, kClips = 250;
+  std::vector<std::filesystem::path> paths;
+  for (int shard = 0; shard < kShards; ++shard) {
+    std::string lines;
+    for (int clip = shard; clip < kClips; clip += kShards)
+      lines += R"({"clip":)" + std::to_string(clip) + R"(,"status":"done"})" + "\n";
+    paths.push_back(folder.Put(std::to_string(shard), lines));
+  }
+  int64_t next = 0;
+  Manifest(paths).ForEachLine([&](int64_t clip, const Json& line) {
+    EXPECT_EQ(clip, next++);
+    EXPECT_EQ(line.at("clip"), clip);
+  });
+  EXPECT_EQ(next, kClips);
+}
+
+// A line that can't be read is not a line that is not there: what follows it would be cut off.
+TEST(Manifest, ThatCannotBeReadIsAnError) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "m");
+  EXPECT_TRUE(
+      Contains(ErrorOf<std::runtime_error>([&] { Manifest manifest(folder / "m"); }), "can't be read"));
+}
+
 TEST(Manifest, ATornLastLineIsNotThere) {
   const TempFolder folder;
   for (size_t cut = 0; cut < kDone1.size(); ++cut) {  // the newline alone may be missing

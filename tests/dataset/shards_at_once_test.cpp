@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "sim/dataset/dataset_reader.h"
-#include "sim/dataset/merge.h"
+#include "sim/dataset/unite.h"
 #include "tests/dataset/small_set.h"
 
 namespace shimmer::dataset {
@@ -46,7 +46,7 @@ TEST(ShardsAtOnce, AllGoOnInAFolderThatWasMerged) {
   const TempFolder folder;
   ASSERT_THAT(RunAtOnce(folder / "set"), testing::IsEmpty());
   for (int round = 0; round < 30; ++round) {
-    UniteManifests(folder / "set");
+    UniteManifests(folder / "set", FolderLock(folder / "set", {}));
     EXPECT_THAT(RunAtOnce(folder / "set"), testing::IsEmpty()) << "round " << round;
   }
 }
@@ -63,7 +63,7 @@ TEST(ShardsAtOnce, WorkBesideWhatOtherNumbersOfShardsHaveLeft) {
   folder.Put("set/dataset.json", Description().dump());
   EXPECT_THAT(RunAtOnce(folder / "set"), testing::IsEmpty());
   { const DatasetWriter whole(folder / "set", Sequence(), Description()); }
-  UniteManifests(folder / "set");
+  UniteManifests(folder / "set", FolderLock(folder / "set", {}));
   for (const auto& entry : std::filesystem::directory_iterator(folder / "set"))
     EXPECT_FALSE(entry.path().filename().string().starts_with(".staging")) << entry.path();
   size_t files = 2;  // dataset.json and manifest.jsonl

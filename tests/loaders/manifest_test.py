@@ -55,6 +55,15 @@ class Manifests(sets.SetsTest):
             self.write(self.lines[0], self.lines[1], torn)
             self.assertEqual(self.clips(), [0, 1])
 
+    def test_what_follows_a_zero_byte_is_not_there(self):
+        self.write(self.lines[0], "\0" * 100 + "\n", self.lines[2])
+        self.assertEqual(self.clips(), [0])
+
+    def test_a_copy_is_no_manifest_of_a_shard(self):
+        self.write(*self.lines[:2])
+        self.write(*self.lines, name="manifest.bak.jsonl")
+        self.assertEqual(self.clips(), [0, 1])
+
     def test_a_damaged_line_elsewhere_is_an_error(self):
         self.write(self.lines[0], self.lines[1][:-9] + "\n", self.lines[2])
         with self.assertRaisesRegex(ValueError, r"manifest\.jsonl:2: is damaged"):

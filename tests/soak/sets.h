@@ -10,7 +10,7 @@ namespace shimmer::app {
 
 inline const std::vector<std::string> kLayouts = {"sequence", "pairs", "restormer", "basicsr", "webdataset"};
 
-// Drawn clips of two frames of 24 x 16, in a millisecond each; a tar holds 12 of them. changes: sections or
+// Drawn clips of two frames of 24 x 16, in a millisecond each; a tar holds 9 of them. changes: sections or
 // keys that are replaced; of output, keys of it.
 inline std::string SetConfig(const std::string& layout, int clips, const Json& changes = Json::object()) {
   Json config = Json::parse(SmallConfig({{"clips", clips},
