@@ -46,7 +46,7 @@ class DatasetWriter {
   const std::filesystem::path& folder() const { return folder_; }
 
   // The place for a clip's files. May be called by several threads.
-  StagedClip Stage(int64_t clip) const { return {staging_, clip}; }
+  StagedClip Stage(int64_t clip) const { return {staging_, clip, layout_.IsTars()}; }
 
   // All fill in "clip" and "status"; Commit and Repair add "files": [{path, bytes,
   // sha256, pixels}]. They return before anything is durable, and throw what went wrong with an earlier clip:

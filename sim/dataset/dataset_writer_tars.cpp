@@ -53,7 +53,8 @@ void DatasetWriter::PublishTar(std::vector<Entry>& unit) const {
     for (const StoredFile& file : entry.staged->files())
       members.push_back({.name = file.path.substr(tar_path.size() + 1),
                          .place = entry.staged->PlaceOf(file.path),
-                         .bytes = file.bytes});
+                         .bytes = file.bytes,
+                         .first = file.offset});
   }
   const fs::path to = folder_ / tar_path, beside = staging_ / to.filename();
   KeepTar(to, staging_);                      // until the manifest names the new one

@@ -135,6 +135,12 @@ void WriteUnsynced(const fs::path& path, std::span<const uint8_t> bytes) {
   file.Close();
 }
 
+void AppendUnsynced(const fs::path& path, std::span<const uint8_t> bytes) {
+  FileHandle file(path, O_WRONLY | O_APPEND);
+  file.WriteAll(bytes);
+  file.Close();
+}
+
 void WriteFileAtomically(const fs::path& path, std::span<const uint8_t> bytes, fs::path beside) {
   if (beside.empty()) beside = path.string() + ".new";
   try {

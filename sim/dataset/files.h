@@ -54,6 +54,8 @@ void WriteFile(const std::filesystem::path& path, std::span<const uint8_t> bytes
 
 // The same without the sync, for files that SyncFileSystem makes durable with many others.
 void WriteUnsynced(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+void AppendUnsynced(const std::filesystem::path& path,
+                    std::span<const uint8_t> bytes);  // to one that is there
 
 // A file under its final name at once, or not at all: written and synced beside, renamed, folder synced.
 // beside: a name in the same file system, path + ".new" unless it is given.

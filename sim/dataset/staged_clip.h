@@ -23,8 +23,9 @@ struct TargetError : std::runtime_error {
 
 class StagedClip {
  public:
-  // Lies in staging / "CLIP", as a tree of its own.
-  StagedClip(const std::filesystem::path& staging, int64_t clip);
+  // Lies in staging / "CLIP", as a tree of its own; bundled, for what goes into a tar, as one file: a file
+  // system takes its time for each new one.
+  StagedClip(const std::filesystem::path& staging, int64_t clip, bool bundled);
   ~StagedClip();  // takes its files away, unless they were moved to the data set
   StagedClip(StagedClip&& other) noexcept;
   StagedClip& operator=(StagedClip&& other) noexcept;
@@ -34,12 +35,15 @@ class StagedClip {
   void Add(const ClipFile& file);
 
   int64_t clip() const { return clip_; }
-  const std::vector<StoredFile>& files() const { return files_; }  // path: ClipFile's
-  std::filesystem::path PlaceOf(const std::string& path) const { return folder_ / path; }
+  const std::vector<StoredFile>& files() const {
+    return files_;
+  }  // path: ClipFile's; bundled, with its offset
+  std::filesystem::path PlaceOf(const std::string& path) const;
   void Remove();
 
  private:
   int64_t clip_;
+  bool bundled_;
   std::filesystem::path folder_;
   std::vector<StoredFile> files_;
 };
