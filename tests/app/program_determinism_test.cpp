@@ -66,7 +66,9 @@ TEST_P(Layouts, AClipAloneIsThatOfTheRun) {
   ExpectDone(Generate(folder, "c.json", "all"));
   ExpectDone(Generate(folder, "c.json", "alone", {"--clip", "3"}));
   const auto all = ManifestLines(folder / "all"), alone = ManifestLines(folder / "alone");
-  if (GetParam() != "webdataset") ASSERT_EQ(alone.size(), 1u);  // else it comes with its whole tar
+  if (GetParam() != "webdataset") {  // there it comes with its whole tar
+    ASSERT_EQ(alone.size(), 1u);
+  }
   const auto found = std::ranges::find(alone, 3, [](const Json& line) { return line.at("clip").get<int>(); });
   ASSERT_TRUE(found != alone.end());
   EXPECT_EQ(*found, all.at(3));
