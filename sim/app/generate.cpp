@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "sim/app/clip_pipeline.h"
 #include "sim/app/dry_run.h"
@@ -94,18 +95,17 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   const int64_t own = CountClips(*writer, clips, options.shard).clips;
   const auto to_make = std::ranges::count_if(pending, [&](int64_t clip) { return clip < clips; });
   Progress progress(own, own - to_make, options.quiet);
-  std::string first_error, kept;
+  std::string first_error, first_kept;
   const std::set<int64_t> were_done = writer->done();
-  int64_t kept_unit = -1;
+  std::set<int64_t> kept_units;
   const auto keep = [&](MadeClip made) {
     const bool failed = !made.staged;
     if (failed && were_done.contains(made.clip)) {
-      // Of a tar that is to be made again: better the clips that are there than a tar without this one
-      kept_unit = writer->layout().UnitOf(made.clip);
-      kept = writer->layout().TarPath(kept_unit) + ": left as it is, for clip " + std::to_string(made.clip) +
-             " can't be made again: " + made.error;
-    } else if (writer->layout().UnitOf(made.clip) == kept_unit) {
-      // As those before it in its tar, it is dropped
+      // Of a tar that is to be made again: the one that is there stays, for without this clip the writer
+      // never has all of it
+      kept_units.insert(writer->layout().UnitOf(made.clip));
+      if (first_kept.empty())
+        first_kept = "clip " + std::to_string(made.clip) + " can't be made again: " + made.error;
     } else if (failed) {
       made.line["error"] = made.error;
       if (first_error.empty()) first_error = made.error;
@@ -125,13 +125,19 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!options.quiet) std::printf("%s\n", Summary(options, count, seconds).c_str());
   if (stop) return kExitInterrupted;
-  if (!kept.empty()) PrintError((options.out / kept).string());
+  std::vector<std::string> wrong;
   if (count.failed > 0)
-    PrintError((options.out / ("manifest" + options.shard.Suffix() + ".jsonl")).string() + ": " +
-               std::to_string(count.failed) + " clips failed, " +
-               (first_error.empty() ? "all in an earlier run" : "the first with: " + first_error) +
-               "; \"error\" of their lines says why");
-  return count.failed > 0 || !kept.empty() ? kExitFailed : kExitDone;
+    wrong.push_back((options.out / ("manifest" + options.shard.Suffix() + ".jsonl")).string() + ": " +
+                    std::to_string(count.failed) + " clips failed, " +
+                    (first_error.empty() ? "all in an earlier run" : "the first with: " + first_error) +
+                    "; \"error\" of their lines says why");
+  if (!kept_units.empty())
+    wrong.push_back((options.out / writer->layout().TarPath(*kept_units.begin())).string() +
+                    (kept_units.size() > 1 ? " and " + std::to_string(kept_units.size() - 1) + " more" : "") +
+                    ": left as it is, for " + first_kept);
+  if (wrong.empty()) return kExitDone;
+  PrintError(wrong.size() > 1 ? wrong[0] + "; " + wrong[1] : wrong[0]);
+  return kExitFailed;
 }
 
 }  // namespace

@@ -51,21 +51,21 @@ int Merge(const MergeOptions& options) {
   const int64_t clips = ConfigOfDataset(options.folder, description).fixed().clips;
   int64_t done = 0, failed = 0;
   std::map<int64_t, int64_t> missing_of_shard;
-  int64_t missing = 0;
   for (int64_t clip = 0; clip < clips; ++clip) {
     if (set.clips().contains(clip))
       ++done;
     else if (set.failed().contains(clip))
       ++failed;
-    else if (++missing, shards)
-      ++missing_of_shard[layout.UnitOf(clip) % *shards];
+    else
+      ++missing_of_shard[shards ? layout.UnitOf(clip) % *shards : 0];
   }
   std::printf("%s: %lld of %s done, %lld failed\n", options.folder.c_str(), static_cast<long long>(done),
               Counted(clips, "clip").c_str(), static_cast<long long>(failed));
-  if (missing > 0 && !shards) std::printf("%s missing\n", Counted(missing, "clip").c_str());
-  for (const auto& [shard, of_shard] : missing_of_shard)
-    std::printf("shard %lld/%lld: %s missing\n", static_cast<long long>(shard),
-                static_cast<long long>(*shards), Counted(of_shard, "clip").c_str());
+  for (const auto& [shard, missing] : missing_of_shard) {
+    const std::string whose =
+        shards ? "shard " + std::to_string(shard) + "/" + std::to_string(*shards) + ": " : "";
+    std::printf("%s%s missing\n", whose.c_str(), Counted(missing, "clip").c_str());
+  }
   return done == clips ? kExitDone : kExitFailed;
 }
 

@@ -10,24 +10,13 @@
 #include <set>
 #include <utility>
 
-#include "tests/app/program.h"
+#include "tests/app/sets.h"
 
 namespace shimmer::app {
 
 struct HarmCounts {
   int flipped = 0, deleted = 0, swapped_pairs = 0, truncated = 0, surplus = 0;
 };
-
-// Names of the files that only one of two trees has, or that are not the same in both.
-inline Words Differing(const std::map<std::string, std::string>& a,
-                       const std::map<std::string, std::string>& b) {
-  Words names;
-  for (const auto& [name, content] : a)
-    if (!b.contains(name) || b.at(name) != content) names.push_back(name);
-  for (const auto& [name, content] : b)
-    if (!a.contains(name)) names.push_back(name);
-  return names;
-}
 
 // What stat says of every file, hidden ones left out: its place on disk and when it was written.
 inline std::map<std::string, std::pair<uint64_t, int64_t>> Inodes(const fs::path& folder) {

@@ -2,7 +2,7 @@
 // or fewer, shards and sets that know different clips of one tar. A tar is never left with fewer clips than
 // it had, and the manifest always says where they lie.
 #include "sim/dataset/dataset_folder.h"
-#include "tests/soak/sets.h"
+#include "tests/app/sets.h"
 
 namespace shimmer::app {
 namespace {
@@ -86,6 +86,24 @@ TEST_F(Tars, AreLeftAsTheyAreWhereAClipCannotBeMadeAgain) {
     EXPECT_TRUE(source.at("sha256").is_string()) << source;
   BringDriveBack();
   ExpectDone(GenerateWith("set", {}));
+  ExpectWhole("set");
+}
+
+// First one picture is away, then the other: no tar can be made whole, and none loses a clip.
+TEST_F(Tars, ThatAreLeftAreCounted) {
+  TakeDriveAway();
+  EXPECT_EQ(GenerateWith("set", {}).exit_code, 1);
+  const auto before = DoneClips(folder_ / "set");
+  BringDriveBack();
+  fs::rename(folder_ / "in/good.png", folder_ / "good.png");
+  fs::create_symlink("../nowhere", folder_ / "in/good.png");
+  const Ran ran = GenerateWith("set", {"--retry-failed"});
+  ExpectOneLine(
+      ran, 1, {"clips failed", "set/shards/000000.tar and 2 more: left as it is, for clip ", "in/good.png"});
+  EXPECT_EQ(DoneClips(folder_ / "set"), before);
+  EXPECT_EQ(BrokenFiles(folder_ / "set"), Words());
+  fs::rename(folder_ / "good.png", folder_ / "in/good.png");
+  ExpectDone(GenerateWith("set", {"--retry-failed"}));
   ExpectWhole("set");
 }
 

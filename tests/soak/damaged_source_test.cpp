@@ -1,8 +1,8 @@
 // Fault 11: damaged pictures among the sources. None ends the run; their clips fail, and the rest is made.
 #include <random>
 
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {

@@ -252,15 +252,20 @@ int openat64(int folder, const char* name, int flags, ...) {
   return Open(folder, name, flags, permissions);
 }
 
-int mkdirat(int folder, const char* name, mode_t permissions) {
+/* A call on a name in a folder. */
+static int OnName(const char* call, long number, int folder, const char* name, long argument) {
   char path[PATH_MAX];
   PathOfName(folder, name, path);
-  if (Judge("mkdir", path) == kFail) return -1;
+  if (Judge(call, path) == kFail) return -1;
   const int logging = StartLog(path);
-  const int result = (int)syscall(SYS_mkdirat, folder, name, permissions);
-  if (result == 0) Log(logging, "mkdir", path, "", NULL, 0);
+  const int result = (int)syscall(number, folder, name, argument);
+  if (result == 0) Log(logging, call, path, "", NULL, 0);
   EndLog(logging);
   return result;
+}
+
+int mkdirat(int folder, const char* name, mode_t permissions) {
+  return OnName("mkdir", SYS_mkdirat, folder, name, permissions);
 }
 int mkdir(const char* name, mode_t permissions) { return mkdirat(AT_FDCWD, name, permissions); }
 char* mkdtemp(char* name) {
@@ -302,14 +307,7 @@ int linkat(int from_folder, const char* from, int to_folder, const char* to, int
 }
 
 int unlinkat(int folder, const char* name, int flags) {
-  char path[PATH_MAX];
-  PathOfName(folder, name, path);
-  if (Judge("unlink", path) == kFail) return -1;
-  const int logging = StartLog(path);
-  const int result = (int)syscall(SYS_unlinkat, folder, name, flags);
-  if (result == 0) Log(logging, "unlink", path, "", NULL, 0);
-  EndLog(logging);
-  return result;
+  return OnName("unlink", SYS_unlinkat, folder, name, flags);
 }
 int unlink(const char* name) { return unlinkat(AT_FDCWD, name, 0); }
 int rmdir(const char* name) { return unlinkat(AT_FDCWD, name, AT_REMOVEDIR); }

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <ranges>
 
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {
@@ -54,12 +54,12 @@ class FailingCalls : public testing::TestWithParam<Case> {
       auto tree = WholeTree(set);
       // Where a folder can't be opened it can't be emptied either.
       std::erase_if(tree, [](const auto& file) { return file.first.starts_with(".staging"); });
-      EXPECT_EQ(TreeDifference(whole_[layout], tree), "") << where;
+      EXPECT_EQ(Differing(whole_[layout], tree), Words()) << where;
     }
     failed_ += ran.exit_code != 0;
     const Ran again = RunForked(folder_, Command(layout, "set"));
     EXPECT_EQ(again.exit_code, 0) << where << ": " << ran.err << again.err;
-    EXPECT_EQ(TreeDifference(whole_[layout], WholeTree(set)), "") << where << ": " << ran.err;
+    EXPECT_EQ(Differing(whole_[layout], WholeTree(set)), Words()) << where << ": " << ran.err;
   }
 
   TempFolder folder_;

@@ -1,8 +1,8 @@
 // Fault 1 of `shimmer merge`: killed at any moment and given again, it makes the set of a run without shards.
 #include <algorithm>
 
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {
@@ -49,7 +49,7 @@ TEST_P(KilledMerge, AtAnyMomentItGoesOnToTheSameSet) {
   FaultyRun unkilled(folder.path(), merge, {.root = folder / "set"});
   const Ran ran = unkilled.Wait();
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_EQ(TreeDifference(whole, WholeTree(folder / "set")), "");
+  EXPECT_EQ(Differing(whole, WholeTree(folder / "set")), Words());
 
   const int64_t kills = std::min<int64_t>(Times(5, 50), unkilled.calls());
   for (int64_t kill = 0; kill < kills; ++kill) {
@@ -60,7 +60,7 @@ TEST_P(KilledMerge, AtAnyMomentItGoesOnToTheSameSet) {
     EXPECT_EQ(BrokenFiles(folder / "set"), Words());
     const Ran again = RunForked(folder, merge);
     EXPECT_EQ(again.exit_code, 0) << again.err;
-    EXPECT_EQ(TreeDifference(whole, WholeTree(folder / "set")), "") << "before call " << call;
+    EXPECT_EQ(Differing(whole, WholeTree(folder / "set")), Words()) << "before call " << call;
   }
   Tell(std::string("1 kill, merge, ") + GetParam().name + ": " + std::to_string(kills) + " kills over " +
        std::to_string(unkilled.calls()) + " calls, all sets equal");

@@ -1,7 +1,7 @@
 // Fault 1 of verify --repair: killed at any moment, the next one undoes the rest of the harm.
 #include "tests/app/harm.h"
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {

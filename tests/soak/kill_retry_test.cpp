@@ -2,8 +2,8 @@
 // for it, so that members of other clips move.
 #include <algorithm>
 
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {
@@ -42,7 +42,7 @@ TEST_P(KilledRetry, AtAnyMomentWhatTheManifestNamesIsWhole) {
   const std::string calls = "rename,fsync,syncfs";
   FaultyRun unkilled(folder.path(), retry, {.root = folder / "set", .calls = calls});
   ExpectDone(unkilled.Wait());
-  EXPECT_EQ(TreeDifference(whole, TreeOfFiles(folder / "set")), "");
+  EXPECT_EQ(Differing(whole, TreeOfFiles(folder / "set")), Words());
 
   const int64_t kills = std::min<int64_t>(Times(15, 150), unkilled.calls());
   for (int64_t kill = 0; kill < kills; ++kill) {
@@ -55,7 +55,7 @@ TEST_P(KilledRetry, AtAnyMomentWhatTheManifestNamesIsWhole) {
     EXPECT_EQ(BrokenFiles(folder / "set"), Words()) << "before call " << call;
     ExpectDone(RunForked(folder, retry));
     EXPECT_EQ(BrokenFiles(folder / "set"), Words()) << "before call " << call;
-    EXPECT_EQ(TreeDifference(whole, TreeOfFiles(folder / "set")), "") << "before call " << call;
+    EXPECT_EQ(Differing(whole, TreeOfFiles(folder / "set")), Words()) << "before call " << call;
   }
   Tell("1 kill, --retry-failed, " + GetParam() + ": " + std::to_string(kills) + " kills of " +
        std::to_string(unkilled.calls()) + " calls, all sets whole");

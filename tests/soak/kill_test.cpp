@@ -1,8 +1,8 @@
 // Fault 1: killed at any moment and run again, it is the set of the run that nobody killed.
 #include <random>
 
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {
@@ -62,7 +62,7 @@ TEST_P(Killed, AtAnyMomentItGoesOnToTheSameSet) {
     const auto before = InodesOfDone(set);
     most_redone = std::max(most_redone, UnfinishedClips(set));
     ExpectDone(RunForked(folder, GenerateWords("c.json", "set")));
-    EXPECT_EQ(TreeDifference(whole, WholeTree(set)), "") << "kill " << kill << " call " << call;
+    EXPECT_EQ(Differing(whole, WholeTree(set)), Words()) << "kill " << kill << " call " << call;
     const auto after = InodesOfDone(set);
     for (const auto& [path, inode] : before) EXPECT_EQ(after.at(path), inode) << path << " was written again";
   }

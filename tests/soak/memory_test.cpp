@@ -1,7 +1,7 @@
 // Memory stays flat, however many clips a run makes.
 #include <cmath>
 
-#include "tests/soak/sets.h"
+#include "tests/app/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {

@@ -1,9 +1,9 @@
 // Fault 12: names that nobody expects, and a data set's folder that leads elsewhere.
 #include <sys/stat.h>
 
+#include "tests/app/sets.h"
 #include "tests/app/small_disk.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {
@@ -98,7 +98,7 @@ class Elsewhere : public testing::TestWithParam<std::string> {
     EXPECT_TRUE(ended);
     EXPECT_TRUE(ran.exit_code >= 0 && ran.exit_code <= 2) << entry << ": " << ran.exit_code;
     if (ran.exit_code != 0) ExpectOneLine(ran, ran.exit_code, {"set"});
-    EXPECT_EQ(TreeDifference(outside_, WholeTree(folder_ / "outside")), "") << entry;
+    EXPECT_EQ(Differing(outside_, WholeTree(folder_ / "outside")), Words()) << entry;
   }
 
   TempFolder folder_;

@@ -2,8 +2,8 @@
 // and the run goes on from there to the same set.
 #include "tests/soak/power_cut.h"
 
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {
@@ -53,7 +53,7 @@ TEST_P(PowerCuts, LeaveWhatTheManifestNamesWhole) {
     }
     const Ran ran = RunForked(folder, GenerateWords("c.json", "disk/set"));
     EXPECT_EQ(ran.exit_code, 0) << where << ": " << ran.err;
-    EXPECT_EQ(TreeDifference(whole, WholeTree(set)), "") << where;
+    EXPECT_EQ(Differing(whole, WholeTree(set)), Words()) << where;
   }
   EXPECT_GT(clips, 0u);
   Tell("5 power cut, " + GetParam() + ": " + std::to_string(cuts) + " cuts, all sets equal; " +
@@ -68,7 +68,7 @@ TEST_P(PowerCuts, OfADiskThatHasSyncedAllLoseNothing) {
   const PowerCut power(log + "syncfs\t" + (folder / "disk").string() + "\t0\n", folder / "disk");
   for (uint32_t seed = 0; seed < 3; ++seed) {
     power.Rebuild(power.changes(), seed, folder / "rebuilt");
-    EXPECT_EQ(TreeDifference(whole, WholeTree(folder / "rebuilt")), "");
+    EXPECT_EQ(Differing(whole, WholeTree(folder / "rebuilt")), Words());
   }
 }
 

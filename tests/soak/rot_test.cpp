@@ -1,7 +1,7 @@
 // Fault 14: silent rot, done to hundreds of files at random, is found to the last one and undone.
 #include "tests/app/harm.h"
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {

@@ -1,8 +1,8 @@
 // Fault 7: the smallest and the largest frames, and any number of channels.
 #include <cmath>
 
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {

@@ -1,8 +1,8 @@
 // Fault 13: several processes on one folder, with locks of the system and on a file system that has none.
 #include <cmath>
 
+#include "tests/app/sets.h"
 #include "tests/soak/faulty_run.h"
-#include "tests/soak/sets.h"
 #include "tests/soak/soak.h"
 
 namespace shimmer::app {
@@ -52,7 +52,7 @@ TEST_P(Writers, OfOneFolderExcludeEachOther) {
         if (ran.exit_code != 0) ExpectOneLine(ran, 1, {"set: ", "process", " writes to this data set"});
       EXPECT_TRUE(a.exit_code == 0 || b.exit_code == 0);
       told += (a.exit_code != 0) + (b.exit_code != 0);
-      EXPECT_EQ(TreeDifference(whole_, WholeTree(folder_ / "set")), "");
+      EXPECT_EQ(Differing(whole_, WholeTree(folder_ / "set")), Words());
     }
   EXPECT_GT(told, 0);
   Tell(std::string("13 two writers, ") + (GetParam() ? "no locks" : "locks") + ": " +
@@ -74,7 +74,7 @@ TEST_P(Writers, OfOneShardExcludeEachOther) {
     EXPECT_TRUE(a.exit_code == 0 || b.exit_code == 0);
     told += (a.exit_code != 0) + (b.exit_code != 0);
     EXPECT_EQ(FaultyRun(folder_.path(), {"merge", "set"}, Locks()).Wait().exit_code, 0);
-    EXPECT_EQ(TreeDifference(whole_, WholeTree(folder_ / "set")), "");
+    EXPECT_EQ(Differing(whole_, WholeTree(folder_ / "set")), Words());
   }
   EXPECT_GT(told, 0);
   Tell(std::string("13 one shard twice, ") + (GetParam() ? "no locks" : "locks") + ": " +
@@ -93,7 +93,7 @@ TEST_P(Writers, OfManyShardsBeginTogether) {
           Locks()));
     for (const auto& shard : shards) ExpectDone(shard->Wait());
     EXPECT_EQ(FaultyRun(folder_.path(), {"merge", "set"}, Locks()).Wait().exit_code, 0);
-    EXPECT_EQ(TreeDifference(whole_, WholeTree(folder_ / "set")), "");
+    EXPECT_EQ(Differing(whole_, WholeTree(folder_ / "set")), Words());
   }
   Tell(std::string("13 twelve shards at once, ") + (GetParam() ? "no locks" : "locks") + ": " +
        std::to_string(runs) + " runs, all sets equal");
@@ -128,7 +128,7 @@ TEST_P(Writers, ThatWereKilledHoldNothing) {
     first.Signal(SIGKILL);
     EXPECT_EQ(first.Wait().exit_code, 128 + SIGKILL);
     ExpectDone(Run());
-    EXPECT_EQ(TreeDifference(whole_, WholeTree(folder_ / "set")), "");
+    EXPECT_EQ(Differing(whole_, WholeTree(folder_ / "set")), Words());
   }
 }
 

@@ -44,18 +44,15 @@ inline std::map<std::string, std::string> WholeTree(const fs::path& folder) {
   return tree;
 }
 
-// Paths that only one of them has, or that differ.
-inline std::string TreeDifference(const std::map<std::string, std::string>& a,
-                                  const std::map<std::string, std::string>& b) {
-  std::string text;
-  for (const auto& [path, hash] : a)
-    if (!b.contains(path)) text += "-" + path + " ";
-  for (const auto& [path, hash] : b)
-    if (!a.contains(path))
-      text += "+" + path + " ";
-    else if (a.at(path) != hash)
-      text += "*" + path + " ";
-  return text;
+// Names of the files that only one of two trees has, or that are not the same in both.
+inline Words Differing(const std::map<std::string, std::string>& a,
+                       const std::map<std::string, std::string>& b) {
+  Words names;
+  for (const auto& [name, content] : a)
+    if (!b.contains(name) || b.at(name) != content) names.push_back(name);
+  for (const auto& [name, content] : b)
+    if (!a.contains(name)) names.push_back(name);
+  return names;
 }
 
 // What a manifest promises and the disk does not hold: one text a file, empty where all is well.
