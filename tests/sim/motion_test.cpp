@@ -1,0 +1,86 @@
+#include "sim/motion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace shimmer::sim {
+namespace {
+
+const cv::Size kFrame{200, 100};
+
+void ExpectAt(const Motion& motion, double time, cv::Point2d place, double tolerance_px = 1e-9) {
+  EXPECT_NEAR(cv::norm(motion.At(time).centre - place), 0, tolerance_px) << motion.At(time).centre;
+}
+
+TEST(Motion, ALineHasItsSpeedAndDirection) {
+  const Motion right({.speed_px = 2.5}, kFrame);
+  ExpectAt(right, 0, {99.5, 49.5});  // the middle of the frame
+  ExpectAt(right, 4, {109.5, 49.5});
+  ExpectAt(right, -0.5, {98.25, 49.5});  // a shutter that opens before the frame's time
+  const Motion down({.start_x = 0, .start_y = 1, .speed_px = 1, .direction_deg = 90}, kFrame);
+  ExpectAt(down, 0, {-0.5, 99.5});
+  ExpectAt(down, 3, {-0.5, 102.5});
+}
+
+TEST(Motion, AnArcIsACircleTravelledEvenly) {
+  for (const double radius_px : {40.0, -40.0}) {
+    const Motion arc({.path = PathKind::kArc, .speed_px = 2, .direction_deg = 0, .radius_px = radius_px},
+                     kFrame);
+    const cv::Point2d start = arc.At(0).centre, centre = start + cv::Point2d(0, radius_px);
+    for (const double time : {0.0, 1.0, 17.3, 90.0})
+      EXPECT_NEAR(cv::norm(arc.At(time).centre - centre), 40, 1e-9);
+    ExpectAt(arc, 2 * M_PI * 40 / 2, start);                              // once round
+    ExpectAt(arc, M_PI * 40 / 2, start + cv::Point2d(0, 2 * radius_px));  // half way
+    EXPECT_NEAR(cv::norm(arc.At(1e-4).centre - start - cv::Point2d(2e-4, 0)), 0,
+                1e-8);  // sets out to the right
+  }
+}
+
+TEST(Motion, ASplineGoesThroughItsPointsAtItsSpeedAndStops) {
+  const MotionParams params{
+      .path = PathKind::kSpline, .speed_px = 3, .points = {{0.1, 0.5}, {0.5, 0.1}, {0.9, 0.5}}};
+  const Motion spline(params, kFrame);
+  ExpectAt(spline, 0, {19.5, 49.5});
+  double way_px = 0, nearest_px = 1e9;
+  for (double time = 0; time < 80; time += 0.25) {
+    const cv::Point2d here = spline.At(time).centre, next = spline.At(time + 0.25).centre;
+    way_px += cv::norm(next - here);
+    nearest_px = std::min(nearest_px, cv::norm(here - cv::Point2d(99.5, 9.5)));
+    if (way_px < 170) {
+      EXPECT_NEAR(cv::norm(next - here), 0.75, 0.01) << time;
+    }
+  }
+  EXPECT_LT(nearest_px, 0.4);  // half a step
+  ExpectAt(spline, 1000, {179.5, 49.5});
+  ExpectAt(spline, -1, {19.5, 49.5});
+  // Two points are a straight line.
+  const Motion straight({.path = PathKind::kSpline, .speed_px = 3, .points = {{0, 0}, {1, 0}}}, kFrame);
+  ExpectAt(straight, 10, {29.5, -0.5}, 1e-6);
+}
+
+TEST(Motion, ASwayComesBack) {
+  const Motion sway({.path = PathKind::kSway, .direction_deg = 90, .sway_px = 8, .period_frames = 12},
+                    kFrame);
+  ExpectAt(sway, 0, {99.5, 49.5});
+  ExpectAt(sway, 3, {99.5, 57.5});
+  ExpectAt(sway, 6, {99.5, 49.5});
+  ExpectAt(sway, 9, {99.5, 41.5});
+}
+
+TEST(Motion, SizeAndAngleOverTime) {
+  const Motion motion({.scale_rate = 1.1, .rotation_deg = 90, .rotation_rate = -9}, kFrame);
+  EXPECT_EQ(motion.At(0).scale, 1);
+  EXPECT_NEAR(motion.At(2).scale, 1.21, 1e-12);
+  EXPECT_NEAR(motion.At(10).turns, 0, 1e-12);
+  EXPECT_EQ(Motion({}, kFrame).At(1e6).scale, 1);
+}
+
+TEST(Motion, WhatCannotBeIsNamed) {
+  EXPECT_THROW(Motion({.path = PathKind::kSpline, .points = {{0, 0}}}, kFrame), std::invalid_argument);
+  EXPECT_THROW(Motion({.path = PathKind::kArc, .radius_px = 0}, kFrame), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace shimmer::sim
