@@ -27,6 +27,12 @@ cv::Point2d SplineAt(const std::vector<cv::Point2d>& points, size_t i, double t)
 
 }  // namespace
 
+cv::Point2d Moved(cv::Point2d place, const Pose& from, const Pose& to) {
+  const cv::Point2d turned = UnitVector(to.turns - from.turns) * (to.scale / from.scale),
+                    off = place - from.centre;
+  return to.centre + cv::Point2d(off.x * turned.x - off.y * turned.y, off.x * turned.y + off.y * turned.x);
+}
+
 Motion::Motion(const MotionParams& params, cv::Size frame)
     : params_(params),
       start_(OfFrame({params.start_x, params.start_y}, frame)),
@@ -65,10 +71,9 @@ cv::Point2d Motion::PlaceAt(double time) const {
     case PathKind::kArc: {
       // About a centre on the right hand, that is clockwise on screen
       const cv::Point2d outward = cv::Point2d(along_.y, -along_.x) * params_.radius_px;
-      const cv::Point2d turned = UnitVector(way_px / (kTurn * params_.radius_px));
-      return start_ - outward +
-             cv::Point2d(outward.x * turned.x - outward.y * turned.y,
-                         outward.x * turned.y + outward.y * turned.x);
+      const cv::Point2d centre = start_ - outward;
+      return Moved(start_, {.centre = centre},
+                   {.centre = centre, .turns = way_px / (kTurn * params_.radius_px)});
     }
     case PathKind::kSpline:
       return OnSpline(std::max(way_px, 0.0));

@@ -94,6 +94,9 @@ struct Pose {
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 
+// Where a place of a rigid object is at another pose of it.
+cv::Point2d Moved(cv::Point2d place, const Pose& from, const Pose& to);
+
 // Of a frame of this size. Throws std::invalid_argument for a spline of fewer than two points, or an arc of
 // radius 0.
 class Motion {

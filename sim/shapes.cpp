@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sim/unit_vector.h"
@@ -98,6 +99,13 @@ cv::Rect2d Extent(const ShapePart& part) {
   return {low, high};
 }
 
+// The line of a part, as a pose in the object's plane.
+Pose LineOf(const ShapePart& part) {
+  const cv::Point2d line = part.b - part.a;
+  const bool turns = part.kind == Kind::kCapsule && line.dot(line) > 0;
+  return {.centre = part.a, .turns = turns ? std::atan2(line.y, line.x) / 6.283185307179586 : 0};
+}
+
 }  // namespace
 
 double ShapePart::DistanceTo(cv::Point2d place) const {
@@ -157,6 +165,25 @@ Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pos
       }
     }
   return layer;
+}
+
+cv::Mat PartsFlow(const std::vector<ShapePart>& now, const Pose& pose, const std::vector<ShapePart>& next,
+                  const Pose& next_pose, double height_px, cv::Rect area) {
+  const double unit_px = height_px * pose.scale;
+  const Pose plane{.centre = {0, 0}, .scale = 1 / height_px};  // the object's own, of which the poses are
+  cv::Mat flow(area.size(), CV_32FC2, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+  for (int y = 0; y < area.height; ++y)
+    for (int x = 0; x < area.width; ++x) {
+      const cv::Point2d pixel(area.x + x, area.y + y), place = Moved(pixel, pose, plane);
+      for (size_t i = now.size(); i-- > 0;) {  // the nearest part first
+        if (now[i].painted || now[i].DistanceTo(place) * unit_px > 0) continue;
+        const cv::Point2d there = Moved(Moved(place, LineOf(now[i]), LineOf(next[i])), plane, next_pose);
+        flow.at<cv::Vec2f>(y, x) = {static_cast<float>(there.x - pixel.x),
+                                    static_cast<float>(there.y - pixel.y)};
+        break;
+      }
+    }
+  return flow;
 }
 
 }  // namespace shimmer::sim

@@ -37,4 +37,10 @@ std::vector<ShapePart> PartsOf(Shape shape, double stride, const cv::Vec3f& colo
 // edge, 0.5 - d within [0, 1], which is exact where a straight edge crosses it upright.
 Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pose& pose);
 
+// Of each pixel of an area, in px: the way of what is seen there to where it is in `next`, the same shape's
+// parts at another time. CV_32FC2; NaN where less than half of the pixel is covered. Parts are rigid: each
+// moves with its line.
+cv::Mat PartsFlow(const std::vector<ShapePart>& now, const Pose& pose, const std::vector<ShapePart>& next,
+                  const Pose& next_pose, double height_px, cv::Rect area);
+
 }  // namespace shimmer::sim

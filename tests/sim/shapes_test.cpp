@@ -70,6 +70,44 @@ TEST(Shapes, TheAreaHoldsAllOfIt) {
   EXPECT_TRUE(DrawParts(PartsOf(Shape::kBox, 0, kColour), 0, {}).area.empty());
 }
 
+// A rigid object's flow is that of its pose, and nothing where it is not.
+TEST(Shapes, FlowOfARigidObjectIsThatOfItsPose) {
+  const auto car = PartsOf(Shape::kBox, 0, kColour);
+  const Pose now{.centre = {30.2, 20.1}, .scale = 1, .turns = 0.02},
+      next{.centre = {33.7, 19.4}, .scale = 1.1, .turns = 0.05};
+  const Layer layer = DrawParts(car, 20, now);
+  const cv::Mat flow = PartsFlow(car, now, car, next, 20, layer.area);
+  int seen = 0;
+  for (int y = 0; y < layer.area.height; ++y)
+    for (int x = 0; x < layer.area.width; ++x) {
+      const cv::Vec2f& way = flow.at<cv::Vec2f>(y, x);
+      const float alpha = layer.rgba.at<cv::Vec4f>(y, x)[3];
+      if (alpha < 0.5f) {
+        EXPECT_TRUE(std::isnan(way[0])) << x << " " << y;
+      }
+      if (alpha <= 0.5f || std::isnan(way[0])) continue;
+      ++seen;
+      const cv::Point2d pixel(layer.area.x + x, layer.area.y + y), there = Moved(pixel, now, next);
+      EXPECT_NEAR(way[0], there.x - pixel.x, 1e-4);
+      EXPECT_NEAR(way[1], there.y - pixel.y, 1e-4);
+    }
+  EXPECT_GT(seen, 400);
+}
+
+// A foot on the ground while the body goes over it: the flow there is the foot's own.
+TEST(Shapes, FlowOfAWalkerIsThatOfEachLimb) {
+  const auto now = PartsOf(Shape::kWalker, 0.1, kColour), next = PartsOf(Shape::kWalker, 0.14, kColour);
+  const Pose pose{.centre = {50, 60}}, next_pose{.centre = {53, 60}};
+  const cv::Mat flow = PartsFlow(now, pose, next, next_pose, 100, {0, 0, 100, 120});
+  for (const size_t part : {size_t{6}, size_t{7}}) {  // the near leg
+    const cv::Point2d foot = pose.centre + now[part].b * 100, there = next_pose.centre + next[part].b * 100;
+    const cv::Vec2f& way = flow.at<cv::Vec2f>(cvRound(foot.y), cvRound(foot.x));
+    EXPECT_NEAR(way[0], there.x - foot.x, 0.15)
+        << part;  // of the pixel beside, as a limb turns by 0.2 at most
+    EXPECT_NEAR(way[1], there.y - foot.y, 0.15) << part;
+  }
+}
+
 TEST(Shapes, AWalkerIsOneHighAndComesBackAfterAStride) {
   double top = 1, bottom = -1;
   for (double stride = 0; stride < 1; stride += 0.02)
