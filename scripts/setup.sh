@@ -2,7 +2,7 @@
 # Installs what Shimmer builds and runs with, from Debian 12 packages. Running it again is quick and changes nothing.
 #
 #   scripts/setup.sh             what building, the demo and the tests need
-#   scripts/setup.sh --photos    also 36 real photographs (wallpapers), for the demo and training sets
+#   scripts/setup.sh --photos    also 36 real photographs (wallpapers), those of configs/photos_*.txt
 #   scripts/setup.sh --training  also what scripts/train/shimmer_dataset.py reads sets with, and PyTorch
 #   scripts/setup.sh --all       all of it, with the peers that some tests compare against
 set -euo pipefail
@@ -12,6 +12,7 @@ required=(
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev libopencv-dev
   libopenimageio-dev openimageio-tools libopenexr-dev  # OpenImageIO's CMake files name its programs
   libtbb-dev libhwy-dev nlohmann-json3-dev libcli11-dev libssl-dev zlib1g-dev libarchive-dev libisal-dev
+  libavcodec-dev libavutil-dev libswscale-dev
   libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
   python3
 )

@@ -85,17 +85,35 @@ std::vector<cv::Point2d> Listed(const CameraParams& camera, int64_t frames) {
   return path;
 }
 
-// Those that no folding keeps within the bound.
-std::vector<cv::Point2d> Within(const CameraParams& camera, std::vector<cv::Point2d> path) {
-  for (size_t k = 0; k < path.size(); ++k)
-    if (const double most = std::max(std::abs(path[k].x), std::abs(path[k].y)); most > camera.bound_px)
-      throw std::invalid_argument("camera.bound_px = " + NumberText(camera.bound_px) + ", must be at least " +
-                                  NumberText(std::ceil(most)) + ": the shift of frame " + std::to_string(k) +
-                                  " is " + NumberText(most) + " px");
-  return path;
-}
+int UpToWhole(double px) { return static_cast<int>(std::ceil(px)); }
 
 }  // namespace
+
+cv::Size ShakeReach(const CameraParams& camera) {
+  switch (camera.shake) {
+    case Shake::kNone:
+      return {};
+    case Shake::kWalk:
+    case Shake::kDrift: {
+      const int most = camera.amplitude_px > 0 ? UpToWhole(camera.bound_px) : 0;
+      return {most, most};
+    }
+    case Shake::kVibration: {  // from one end of the sine to the other
+      const cv::Point2d most = UnitVector(camera.direction_deg / 360) * (2 * camera.amplitude_px);
+      return {UpToWhole(std::abs(most.x)), UpToWhole(std::abs(most.y))};
+    }
+    case Shake::kList: {
+      cv::Size most;
+      for (const cv::Point2d& shift : camera.shifts) {
+        const cv::Point2d from_first = shift - camera.shifts.front();
+        most.width = std::max(most.width, UpToWhole(std::abs(from_first.x)));
+        most.height = std::max(most.height, UpToWhole(std::abs(from_first.y)));
+      }
+      return most;
+    }
+  }
+  throw std::logic_error("ShakeReach: no such shake");
+}
 
 std::vector<cv::Point2d> ShakePath(const CameraParams& camera, ClipKey key, int64_t frames) {
   switch (camera.shake) {
@@ -106,9 +124,9 @@ std::vector<cv::Point2d> ShakePath(const CameraParams& camera, ClipKey key, int6
     case Shake::kDrift:
       return Drift(camera, key, frames);
     case Shake::kVibration:
-      return Within(camera, Vibration(camera, key, frames));
+      return Vibration(camera, key, frames);
     case Shake::kList:
-      return Within(camera, Listed(camera, frames));
+      return Listed(camera, frames);
   }
   throw std::logic_error("ShakePath: no such shake");
 }

@@ -60,19 +60,19 @@ struct CameraParams {
                 .high = 360,
                 .help = "vibration: 0 is along x, 90 along y"},
           self.direction_deg);
-    visit(
-        Field{.name = "bound_px",
-              .unit = "px",
-              .low = 0,
-              .high = kMostShake_px,
-              .help = "the most that the camera is off its first place along each axis: walk and drift turn "
-                      "back there, and so much more of the source is needed on each side"},
-        self.bound_px);
+    visit(Field{.name = "bound_px",
+                .unit = "px",
+                .low = 0,
+                .high = kMostShake_px,
+                .help =
+                    "walk and drift: the most that the camera is off its first place along each axis, where "
+                    "it turns back; so much more of the source is needed on each side"},
+          self.bound_px);
     visit(Field{.name = "shifts",
                 .unit = "px",
                 .low = -kMostShake_px,
                 .high = kMostShake_px,
-                .help = "list: [[x, y], ...], one for each frame, counted from the first",
+                .help = "list: [[x, y], ...], one for each frame, relative to that of the first",
                 .per_clip = false},
           self.shifts);
     visit(Field{.name = "shaken_clean",
@@ -82,9 +82,15 @@ struct CameraParams {
   }
 };
 
+// The whole px of a shake; the rest is at most half a px along each axis.
+inline cv::Point WholeShake(cv::Point2d shake_px) { return {cvRound(shake_px.x), cvRound(shake_px.y)}; }
+
+// The most that |s| may be along x and along y in any clip of these parameters, in whole px, rounded up: so
+// much of the source must lie around the crop.
+cv::Size ShakeReach(const CameraParams& camera);
+
 // s of each frame, px; exactly (0, 0) in the first. The same whatever `frames` is: a longer clip begins as a
-// shorter one. Within bound_px along each axis. Throws std::invalid_argument: a list shorter than the clip,
-// or a vibration or list beyond bound_px.
+// shorter one. Throws std::invalid_argument for a list shorter than the clip.
 std::vector<cv::Point2d> ShakePath(const CameraParams& camera, ClipKey key, int64_t frames);
 
 }  // namespace shimmer::sim

@@ -76,11 +76,20 @@ cv::Mat LightOf(const cv::Mat& samples, bool grey, bool linear_light) {
 
 }  // namespace
 
-CleanFrame::CleanFrame(const cv::Mat& given, const ClipPlan& plan)
-    : samples(Checked(given)),
+CleanFrame::CleanFrame(const cv::Mat& given, cv::Point origin_, const ClipPlan& plan)
+    : origin(origin_),
+      samples(Checked(given)),
       constant(samples),
-      grey(IsGrey(samples)),
-      light(LightOf(samples, grey, plan.linear_light)),
-      source(plan.tilt ? PrepareForWarp(light) : cv::Mat()) {}
+      grey(samples.channels() == 1 || (!plan.sensor && plan.objects == 0 && IsGrey(samples))),
+      linear_light(plan.linear_light),
+      light(LightOf(samples, grey, linear_light)),
+      source(plan.tilt || plan.shake ? PrepareForWarp(light) : cv::Mat()) {}
+
+void CleanFrame::Derive(cv::Rect area) {
+  const cv::Mat part = Checked(samples(area));
+  constant.SetVaried(area);
+  if (light.data != samples.data) LightOf(part, grey, linear_light).copyTo(light(area));
+  if (!source.empty() && source.data != light.data) PrepareForWarp(light(area)).copyTo(source(area));
+}
 
 }  // namespace shimmer::sim

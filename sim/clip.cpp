@@ -1,5 +1,7 @@
 #include "sim/clip.h"
 
+#include "sim/size_text.h"
+
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -33,19 +35,22 @@ ClipRenderer::ClipRenderer(const Scene& scene, const ClipPlan& plan, ClipKey key
 ClipRenderer::~ClipRenderer() = default;
 
 CleanFrame ClipRenderer::Prepare(const cv::Mat& samples) const {
-  const int around_px = 2 * plan_.halo_px;
+  const int around_px = 2 * plan_.AroundPx();
   const cv::Size size = samples.size(),
                  wanted(plan_.shape.size.width + around_px, plan_.shape.size.height + around_px);
   if (size != wanted)
-    throw std::invalid_argument("clean frame of " + std::to_string(size.width) + "x" +
-                                std::to_string(size.height) + " px, must be " + std::to_string(wanted.width) +
-                                "x" + std::to_string(wanted.height));
-  return {samples, plan_};
+    throw std::invalid_argument("clean frame of " + SizeText(size) + " px, must be " + SizeText(wanted));
+  return {samples, {-plan_.AroundPx(), -plan_.AroundPx()}, plan_};
 }
 
-void ClipRenderer::Render(int64_t t, const CleanFrame& clean, bool with_truth, RenderedFrame& frame) const {
+void ClipRenderer::Render(int64_t t, const CleanFrame& clean, bool with_truth, RenderedFrame& frame,
+                          const FrameView& view) const {
+  const cv::Rect window = plan_.Window(view.shake_px);
+  if ((window & cv::Rect(clean.origin, clean.samples.size())) != window)
+    throw std::invalid_argument("clean frame: does not hold all that is read for a shake of (" +
+                                NumberText(view.shake_px.x) + ", " + NumberText(view.shake_px.y) + ") px");
   std::unique_ptr<FrameMemory> memory = pool_->Take();
-  RenderFrame(scene_, plan_, fields_, t, clean, with_truth, *memory, frame);
+  RenderFrame(scene_, plan_, fields_, t, clean, view, with_truth, *memory, frame);
   pool_->GiveBack(std::move(memory));
 }
 

@@ -16,7 +16,7 @@ void Clamp(std::span<float> row, float least, float most) {
 }  // namespace
 
 ClipFields::ClipFields(const Scene& scene, const ClipPlan& plan, ClipKey key)
-    : scene_(scene), plan_(plan), border_px_(plan.blur ? plan.blur->margin_px : 0) {
+    : scene_(scene), plan_(plan), key_(key), border_px_(plan.blur ? plan.blur->margin_px : 0) {
   const cv::Size size = plan_.shape.size;
   const int border = border_px_;
   if (plan_.tilt) {

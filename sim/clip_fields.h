@@ -25,6 +25,8 @@ class ClipFields {
   // Px around the clip in which shifts are known too: the blur gathers from there.
   int border_px() const { return border_px_; }
 
+  ClipKey key() const { return key_; }
+
   // The fields of one frame, to be read row by row from any thread.
   class Frame {
    public:
@@ -59,6 +61,7 @@ class ClipFields {
 
   Scene scene_;
   ClipPlan plan_;
+  ClipKey key_;
   int border_px_;
   std::optional<TiltField> tilt_;
   std::optional<BlurNoise> blur_noise_;

@@ -47,6 +47,11 @@ bool ConstantRegions::IsConstant(cv::Rect area) const {
   return true;
 }
 
+void ConstantRegions::SetVaried(cv::Rect area) {
+  const int left = area.x / kBlock_px, top = area.y / kBlock_px;
+  constant_(cv::Rect(left, top, BlocksIn(area.br().x) - left, BlocksIn(area.br().y) - top)).setTo(0);
+}
+
 std::vector<cv::Range> ConstantRegions::Varied(cv::Rect area, int reach_px) const {
   if (!any_) return {{0, area.width}};
   const cv::Rect all({}, frame_.size());

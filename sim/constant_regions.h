@@ -20,6 +20,9 @@ class ConstantRegions {
   // multiples of a block from the area's left edge. Empty if it is constant all over.
   std::vector<cv::Range> Varied(cv::Rect area, int reach_px) const;
 
+  // The blocks of an area, which may have changed, are varied from now on.
+  void SetVaried(cv::Rect area);
+
   bool any() const { return any_; }  // false: nothing is constant, and nobody need ask
 
  private:

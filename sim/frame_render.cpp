@@ -28,14 +28,23 @@ std::span<float> Scratch(size_t which, size_t size) {
   return {rows[which].data(), size};
 }
 
+void Multiply(std::span<float> row, std::span<const float> by) {
+  for (size_t i = 0; i < row.size(); ++i) row[i] *= by[i];
+}
+
 class FrameRender {
  public:
   FrameRender(const Scene& scene, const ClipPlan& plan, const ClipFields& fields, int64_t t,
-              const CleanFrame& clean, FrameMemory& memory, RenderedFrame& out)
+              const CleanFrame& clean, const FrameView& view, FrameMemory& memory, RenderedFrame& out)
       : scene_(scene),
         plan_(plan),
         fields_(fields.At(t)),
+        key_(fields.key()),
+        t_(t),
         clean_(clean),
+        view_(view),
+        origin_(-WholeShake(view.shake_px) - clean.origin),
+        fraction_(view.shake_px - cv::Point2d(WholeShake(view.shake_px))),
         border_px_(fields.border_px()),
         size_(plan.shape.size),
         memory_(memory),
@@ -52,9 +61,8 @@ class FrameRender {
     std::vector<double> tilt_sums(static_cast<size_t>(size_.height)), sigma_sums(tilt_sums.size());
     ForBands(-border_px_, size_.height + border_px_, [&](int begin, int end) {
       std::vector<cv::Range> varied;  // nowhere, if nothing is done to the clip at all
-      if (plan_.tilt || plan_.blur)
-        varied = clean_.constant.Varied(
-            {SourceX(-border_px_), SourceY(begin), with_border.width, end - begin}, TiltReach());
+      if (plan_.tilt || plan_.blur || plan_.shake || plan_.sensor)
+        varied = Varied({SourceX(-border_px_), SourceY(begin), with_border.width, end - begin}, TiltReach());
       for (int y = begin; y < end; ++y) WarpRowOf(y, varied, tilt_sums, sigma_sums);
     });
     const double pixels = static_cast<double>(size_.area());
@@ -68,8 +76,8 @@ class FrameRender {
   void Blur() {
     const FrameBlur blur(memory_.warped, scene_.blur, *plan_.blur);
     ForBands(0, size_.height, [&](int begin, int end) {
-      const std::vector<cv::Range> varied = clean_.constant.Varied(
-          {SourceX(0), SourceY(begin), size_.width, end - begin}, TiltReach() + BlurReach());
+      const std::vector<cv::Range> varied =
+          Varied({SourceX(0), SourceY(begin), size_.width, end - begin}, TiltReach() + BlurReach());
       for (int y = begin; y < end; ++y) CopyRow(y, varied);
       thread_local Planes blurred;
       blurred.resize(memory_.warped.size());
@@ -96,13 +104,18 @@ class FrameRender {
     });
   }
 
-  // Pixel (0, 0) of the clip lies halo_px within the clean frame.
-  int SourceX(int x) const { return x + plan_.halo_px; }
-  int SourceY(int y) const { return y + plan_.halo_px; }
+  // Where something may change: all of it, where a sensor looks at it.
+  std::vector<cv::Range> Varied(cv::Rect area, int reach_px) const {
+    if (plan_.sensor) return {cv::Range(0, area.width)};
+    return clean_.constant.Varied(area, reach_px);
+  }
+
+  int SourceX(int x) const { return x + origin_.x; }
+  int SourceY(int y) const { return y + origin_.y; }
   // Where the blur sees nothing but one colour: further than its margin, for what is left of the light there
   // would show as a step.
   int BlurReach() const { return GaussianRadius(scene_.blur.max_sigma_px); }
-  int TiltReach() const { return plan_.tilt ? plan_.tilt->margin_px : 0; }
+  int TiltReach() const { return plan_.WarpMargin(); }
 
   void WarpRowOf(int y, const std::vector<cv::Range>& varied, std::vector<double>& tilt_sums,
                  std::vector<double>& sigma_sums) {
@@ -110,14 +123,26 @@ class FrameRender {
     const std::span<float> dx = Scratch(3, width + 2 * border), dy = Scratch(4, width + 2 * border);
     fields_.Shifts(y, dx, dy);
     const bool inside = y >= 0 && y < size_.height;
+    const std::span<float> own_dx = dx.subspan(border, width), own_dy = dy.subspan(border, width);
+    std::span<float> sigma;
     if (inside) {
-      const std::span<float> own_dx = dx.subspan(border, width), own_dy = dy.subspan(border, width);
-      const std::span<float> sigma = plan_.blur ? RowOf(memory_.sigma, y) : Scratch(5, width);
+      sigma = plan_.blur ? RowOf(memory_.sigma, y) : Scratch(5, width);
       fields_.Sigmas(y, own_dx, own_dy, sigma);
+    }
+    if (plan_.own_distances) {
+      const std::span<const float> strength = RowOf(view_.strength, y + border_px_);
+      Multiply(dx, strength), Multiply(dy, strength);
+      if (inside) Multiply(sigma, strength.subspan(border, width));
+    }
+    if (inside) {
       const auto row = static_cast<size_t>(y);
       tilt_sums[row] = SumOfSquares(own_dx) + SumOfSquares(own_dy);
       sigma_sums[row] = SumOfRow(sigma);
       if (out_.truth) KeepTruth(y, own_dx, own_dy, sigma);
+    }
+    if (plan_.shake) {  // all but its whole px, which moves what is read (SourceX)
+      for (float& shift : dx) shift -= fraction_.x;
+      for (float& shift : dy) shift -= fraction_.y;
     }
     if (!plan_.blur) CopyRow(y, varied);
     for (const cv::Range& part : varied) {
@@ -127,7 +152,7 @@ class FrameRender {
         rows[c] =
             plan_.blur ? memory_.warped[c].ptr<float>(y + border_px_) + start : Scratch(c, length).data();
       const cv::Point first(SourceX(part.start - border_px_), SourceY(y));
-      if (plan_.tilt)
+      if (plan_.tilt || plan_.shake)
         WarpRow(clean_.source, first, dx.subspan(start, length), dy.subspan(start, length),
                 scene_.tilt.interpolation, rows.data());
       else
@@ -176,24 +201,23 @@ class FrameRender {
   void Finish(int y, const cv::Range& part, const PlaneRows& rows) {
     const auto length = static_cast<size_t>(part.size());
     const size_t planes = clean_.grey ? 1 : 3;
+    if (plan_.sensor)
+      for (size_t c = 0; c < planes; ++c)
+        SenseRow(scene_.sensor, key_, t_, y, static_cast<int>(c), part.start, {rows[c], length});
     if (plan_.linear_light)
       for (size_t c = 0; c < planes; ++c) EncodeSrgbRow({rows[c], length});
-    const std::span<const float* const> from(rows.data(), planes);
-    const int channels = out_.turb.channels();
-    switch (out_.turb.depth()) {
-      case CV_8U:
-        return PackRow(from, channels, length, out_.turb.ptr<uint8_t>(y, part.start));
-      case CV_16U:
-        return PackRow(from, channels, length, out_.turb.ptr<uint16_t>(y, part.start));
-      default:
-        return PackRow(from, channels, length, out_.turb.ptr<float>(y, part.start));
-    }
+    PackRow(std::span<const float* const>(rows.data(), planes), length, {part.start, y}, out_.turb);
   }
 
   const Scene& scene_;
   const ClipPlan& plan_;
   const ClipFields::Frame fields_;
+  const ClipKey key_;
+  const int64_t t_;
   const CleanFrame& clean_;
+  const FrameView& view_;
+  const cv::Point origin_;      // of the clip in the clean frame's pixels
+  const cv::Point2f fraction_;  // of the shake, beside its whole px
   const int border_px_;
   const cv::Size size_;
   FrameMemory& memory_;
@@ -203,7 +227,8 @@ class FrameRender {
 }  // namespace
 
 void RenderFrame(const Scene& scene, const ClipPlan& plan, const ClipFields& fields, int64_t t,
-                 const CleanFrame& clean, bool with_truth, FrameMemory& memory, RenderedFrame& out) {
+                 const CleanFrame& clean, const FrameView& view, bool with_truth, FrameMemory& memory,
+                 RenderedFrame& out) {
   const cv::Size size = plan.shape.size;
   out.turb.create(size, clean.samples.type());
   if (with_truth) {
@@ -213,7 +238,7 @@ void RenderFrame(const Scene& scene, const ClipPlan& plan, const ClipFields& fie
   } else {
     out.truth.reset();
   }
-  FrameRender frame(scene, plan, fields, t, clean, memory, out);
+  FrameRender frame(scene, plan, fields, t, clean, view, memory, out);
   frame.Warp();
   if (plan.blur) frame.Blur();
 }

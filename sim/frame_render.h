@@ -11,6 +11,14 @@
 
 namespace shimmer::sim {
 
+// How a frame is seen.
+struct FrameView {
+  cv::Point2d shake_px = {};  // sim/camera.h
+  // Factor on tilt and sigma of each pixel, [0, 1]: CV_32FC1, the clip with ClipFields::border_px() around
+  // it. Wanted where the plan has own_distances.
+  cv::Mat strength = {};
+};
+
 struct RenderedFrame {
   cv::Mat turb;                // of the clean frame's type
   double tilt_square_px2 = 0;  // mean over the clip's pixels and both axes of the squared shift
@@ -27,6 +35,7 @@ struct FrameMemory {
 // Frame t of the clip that plan and fields are of. What `out` held is overwritten where it has the right
 // size.
 void RenderFrame(const Scene& scene, const ClipPlan& plan, const ClipFields& fields, int64_t t,
-                 const CleanFrame& clean, bool with_truth, FrameMemory& memory, RenderedFrame& out);
+                 const CleanFrame& clean, const FrameView& view, bool with_truth, FrameMemory& memory,
+                 RenderedFrame& out);
 
 }  // namespace shimmer::sim

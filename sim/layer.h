@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace shimmer::sim {
 
@@ -10,11 +11,19 @@ struct Layer {
   cv::Mat rgba;   // CV_32FC4 of that size: red, green and blue times alpha, and alpha, in [0, 1]
 };
 
-// The layer over a frame whose pixel (0, 0) is pixel `origin` of the clip's: frame = rgb + (1 - alpha) frame,
-// mask = alpha + (1 - alpha) mask. frame: CV_32FC3, or CV_32FC1 (the mean of the layer's three); mask:
-// CV_32FC1 of its size. What lies outside of the frame is left out. Throws std::invalid_argument for other
-// types.
-void Composite(const Layer& layer, cv::Point origin, cv::Mat& frame, cv::Mat& mask);
+// Layers, from the farthest to the nearest, as layers that do not meet: those whose areas do are one, the
+// nearer over the farther (out = near + (1 - alpha_near) far).
+std::vector<Layer> Flattened(std::vector<Layer> layers);
+
+// The layer over a frame whose pixel (0, 0) is pixel `origin` of the clip's: light = rgb + (1 - alpha) light.
+// frame: CV_8U (v / 255), CV_16U (v / 65535) or CV_32F of 3 channels, or of 1 (the mean of the layer's
+// three). linear_light: the frame is stored as sRGB, and the light is what that encodes. Rounded once; pixels
+// of coverage 0 keep their bits. What lies outside of the frame is left out. Throws std::invalid_argument for
+// other types.
+void Composite(const Layer& layer, cv::Point origin, bool linear_light, cv::Mat& frame);
+
+// mask = alpha + (1 - alpha) mask; CV_32FC1.
+void AddCoverage(const Layer& layer, cv::Point origin, cv::Mat& mask);
 
 // The mean of layers that an object has at several times: motion blur. At least one.
 class LayerMean {

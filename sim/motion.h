@@ -2,6 +2,7 @@
 // first one, and need not be whole: a shutter is open for a while.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -10,6 +11,7 @@
 namespace shimmer::sim {
 
 enum class PathKind { kLine, kArc, kSpline, kSway };
+enum class OffFrame { kRefuse, kShift, kAllow };
 
 struct MotionParams {
   PathKind path = PathKind::kLine;
@@ -21,6 +23,7 @@ struct MotionParams {
   std::vector<cv::Point2d> points = {};
   double scale_rate = 1;
   double rotation_deg = 0, rotation_rate = 0;
+  OffFrame off_frame = OffFrame::kRefuse;
 
   template <class Self, class Visitor>
   static void Fields(Self& self, Visitor& visit) {
@@ -84,6 +87,12 @@ struct MotionParams {
         Field{
             .name = "rotation_rate", .unit = "degrees/frame", .low = -360, .high = 360, .help = "clockwise"},
         self.rotation_rate);
+    visit(Field{.name = "off_frame",
+                .names = {"refuse", "shift", "allow"},
+                .help = "where its middle would leave the frame: refuse is an error, shift moves the whole "
+                        "path by as little as keeps it within, allow lets it go",
+                .per_clip = false},
+          self.off_frame);
   }
 };
 
@@ -94,22 +103,42 @@ struct Pose {
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 
-// Where a place of a rigid object is at another pose of it.
-cv::Point2d Moved(cv::Point2d place, const Pose& from, const Pose& to);
+// What carries the places of a rigid object from one pose of it to another.
+struct Carry {
+  Carry(const Pose& from, const Pose& to);
+  Carry(cv::Point2d from_, cv::Point2d to_, cv::Point2d turn_) : from(from_), to(to_), turn(turn_) {}
 
-// Of a frame of this size. Throws std::invalid_argument for a spline of fewer than two points, or an arc of
-// radius 0.
+  cv::Point2d operator()(cv::Point2d place) const {
+    const cv::Point2d off = place - from;
+    return to + cv::Point2d(off.x * turn.x - off.y * turn.y, off.x * turn.y + off.y * turn.x);
+  }
+
+  cv::Point2d from, to;  // its middle
+  cv::Point2d turn;      // where (1, 0) points then, times the change of scale
+};
+
+// Where a place of it is at the other pose.
+inline cv::Point2d Moved(cv::Point2d place, const Pose& from, const Pose& to) {
+  return Carry(from, to)(place);
+}
+
+// Over a frame of this size, of a clip of so many frames. Throws std::invalid_argument for a spline of fewer
+// than two points, an arc of radius 0, and a path that leaves the frame where off_frame forbids it, or is too
+// long to be shifted into it.
 class Motion {
  public:
-  Motion(const MotionParams& params, cv::Size frame);
+  Motion(const MotionParams& params, cv::Size frame, int64_t frames);
   Pose At(double time_frames) const;
 
  private:
   cv::Point2d PlaceAt(double time_frames) const;
+  void DrawSpline(cv::Size frame);
+  void KeepWithin(cv::Size frame, int64_t frames);
   cv::Point2d OnSpline(double way_px) const;
 
   MotionParams params_;
   cv::Point2d start_, along_;        // px; unit vector
+  cv::Point2d shift_;                // px, of the whole path
   std::vector<cv::Point2d> spline_;  // a fine polygon along it, px
   std::vector<double> way_px_;       // to each of its corners
 };

@@ -13,10 +13,10 @@ constexpr double kSnapshotStep_px = 0.5;  // edges of snapshots so near show as 
 
 }  // namespace
 
-MovingObject::MovingObject(Look look, const MotionParams& motion, cv::Size frame, double height_px,
-                           double shutter)
+MovingObject::MovingObject(Look look, const MotionParams& motion, cv::Size frame, int64_t frames,
+                           double height_px, double shutter)
     : look_(std::move(look)),
-      motion_(motion, frame),
+      motion_(motion, frame, frames),
       speed_px_(motion.speed_px),
       height_px_(height_px),
       shutter_(shutter) {}
@@ -72,10 +72,11 @@ cv::Mat MovingObject::FlowAt(int64_t k, cv::Rect area) const {
   cv::Mat flow(area.size(), CV_32FC2, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
   const Layer layer = Snapshot(time, k);
   const cv::Rect seen = layer.area & area;
+  const Carry carry(now, next);
   for (int y = seen.y; y < seen.br().y; ++y)
     for (int x = seen.x; x < seen.br().x; ++x) {
       if (layer.rgba.at<cv::Vec4f>(y - layer.area.y, x - layer.area.x)[3] < 0.5f) continue;
-      const cv::Point2d way = Moved(cv::Point2d(x, y), now, next) - cv::Point2d(x, y);
+      const cv::Point2d way = carry(cv::Point2d(x, y)) - cv::Point2d(x, y);
       flow.at<cv::Vec2f>(y - area.y, x - area.x) = {static_cast<float>(way.x), static_cast<float>(way.y)};
     }
   return flow;

@@ -26,8 +26,9 @@ using Look = std::variant<DrawnLook, StillLook, VideoLook>;
 class MovingObject {
  public:
   // height_px: in the first frame. shutter: the share of a frame's time that light is gathered, [0, 1],
-  // around the frame's own time. Throws as Motion.
-  MovingObject(Look look, const MotionParams& motion, cv::Size frame, double height_px, double shutter);
+  // around the frame's own time. frame: the clip's size, frames: its length. Throws as Motion.
+  MovingObject(Look look, const MotionParams& motion, cv::Size frame, int64_t frames, double height_px,
+               double shutter);
 
   // Frame k of the clip, counted from its first: light and coverage, means over the shutter's time. A walker
   // makes a stride while it goes 0.9 of its height.

@@ -181,6 +181,18 @@ void PackRow(std::span<const float* const> planes, int channels, size_t width, u
 void PackRow(std::span<const float* const> planes, int channels, size_t width, float* to) {
   HWY_DYNAMIC_DISPATCH(PackRowFloat)(planes, channels, width, to);
 }
+void PackRow(std::span<const float* const> planes, size_t width, cv::Point first, cv::Mat& frame) {
+  switch (frame.depth()) {
+    case CV_8U:
+      return PackRow(planes, frame.channels(), width, frame.ptr<uint8_t>(first.y, first.x));
+    case CV_16U:
+      return PackRow(planes, frame.channels(), width, frame.ptr<uint16_t>(first.y, first.x));
+    case CV_32F:
+      return PackRow(planes, frame.channels(), width, frame.ptr<float>(first.y, first.x));
+    default:
+      throw std::invalid_argument("PackRow: frame of type " + cv::typeToString(frame.type()));
+  }
+}
 
 }  // namespace shimmer::sim
 #endif

@@ -19,4 +19,7 @@ void PackRow(std::span<const float* const> planes, int channels, size_t width, u
 void PackRow(std::span<const float* const> planes, int channels, size_t width, uint16_t* to);
 void PackRow(std::span<const float* const> planes, int channels, size_t width, float* to);
 
+// The same to pixels first.x .. of row first.y of a frame of UnpackRow's types.
+void PackRow(std::span<const float* const> planes, size_t width, cv::Point first, cv::Mat& frame);
+
 }  // namespace shimmer::sim

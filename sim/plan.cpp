@@ -55,7 +55,8 @@ BlurChoice ChooseWay(const BlurParams& blur, bool linear_light, const Accuracy& 
   return {BlurWay::kExact};
 }
 
-BlurPlan PlanBlur(const BlurParams& blur, const std::optional<TiltPlan>& tilt, const BlurChoice& choice) {
+BlurPlan PlanBlur(const BlurParams& blur, const ClipPlan& clip, const BlurChoice& choice) {
+  const std::optional<TiltPlan>& tilt = clip.tilt;
   BlurPlan plan{.way = choice.way, .grade = choice.grade};
   plan.margin_px = plan.way == BlurWay::kLadder
                        ? LevelLadder::For(blur.max_sigma_px, plan.grade).margin_px()
@@ -63,7 +64,7 @@ BlurPlan PlanBlur(const BlurParams& blur, const std::optional<TiltPlan>& tilt, c
   const bool varies = blur.max_sigma_px > blur.min_sigma_px;
   plan.noise = varies && blur.tilt_weight < 1;
   plan.tilt = varies && blur.tilt_weight > 0 && tilt;
-  plan.constant = !plan.noise && !plan.tilt;
+  plan.constant = !plan.noise && !plan.tilt && !clip.own_distances;
   plan.frozen = !(plan.noise && blur.temporal_scale > 0) && !(plan.tilt && !tilt->frozen);
   return plan;
 }
@@ -96,6 +97,17 @@ void ClipShape::Validate() const {
                                 ", must be in [0, 2^31 - frames]");
 }
 
+int ClipPlan::WarpMargin() const {
+  const int reach_px = tilt ? tilt->margin_px : shake ? kWarpReachPx : 0;
+  return reach_px + (shake ? 1 : 0);  // the shake's fraction of a px
+}
+
+cv::Rect ClipPlan::Window(cv::Point2d shake_px) const {
+  const cv::Point whole = WholeShake(shake_px);
+  return {-whole.x - halo_px, -whole.y - halo_px, shape.size.width + 2 * halo_px,
+          shape.size.height + 2 * halo_px};
+}
+
 ClipPlan PlanClip(const Scene& scene, const ClipShape& shape, const Accuracy& accuracy) {
   scene.Validate();
   shape.Validate();
@@ -103,13 +115,19 @@ ClipPlan PlanClip(const Scene& scene, const ClipShape& shape, const Accuracy& ac
   ClipPlan plan;
   plan.shape = shape;
   plan.linear_light = scene.colour == Colour::kLinear;
+  plan.sensor = scene.sensor.On();
+  plan.compression = scene.sensor.compression;
+  plan.objects = scene.objects;
+  plan.own_distances = scene.own_distances;
+  if (const cv::Size reach = ShakeReach(scene.camera); reach.width > 0 || reach.height > 0)
+    plan.shake = ShakePlan{reach.width, reach.height};
   plan.read_once = scene.still;
   if (scene.tilt.strength_px > 0) plan.tilt = PlanTilt(scene.tilt);
   SigmaBudget budget;
   double promised_levels = 0;  // of the ladder
   if (IsVisible(scene.blur, plan.linear_light, accuracy)) {
     const BlurChoice choice = ChooseWay(scene.blur, plan.linear_light, accuracy);
-    plan.blur = PlanBlur(scene.blur, plan.tilt, choice);
+    plan.blur = PlanBlur(scene.blur, plan, choice);
     promised_levels = choice.promised_levels;
     const double levels = LevelsForSigma(choice, plan.linear_light, accuracy.max_error_levels);
     budget = ShareLevels(scene, *plan.blur, shape.size, levels);
@@ -121,8 +139,11 @@ ClipPlan PlanClip(const Scene& scene, const ClipShape& shape, const Accuracy& ac
         PlanTiltField(scene.tilt, shape.size, shape.frames, {accuracy.max_error_px, budget.tilt_px},
                       plan.blur ? plan.blur->margin_px : 0);
   if (plan.blur) plan.blur->promised_levels = PromisedLevels(scene, plan, promised_levels);
-  plan.render_once = scene.still && (!plan.tilt || plan.tilt->frozen) && (!plan.blur || plan.blur->frozen);
-  plan.halo_px = (plan.tilt ? plan.tilt->margin_px : 0) + (plan.blur ? plan.blur->margin_px : 0);
+  const bool stands =
+      !plan.shake && plan.objects == 0 && !scene.sensor.Noisy() && plan.compression != Compression::kH264;
+  plan.render_once =
+      scene.still && stands && (!plan.tilt || plan.tilt->frozen) && (!plan.blur || plan.blur->frozen);
+  plan.halo_px = plan.WarpMargin() + (plan.blur ? plan.blur->margin_px : 0);
   return plan;
 }
 

@@ -3,9 +3,9 @@
 // keeps it, tests compare it.
 #pragma once
 
-#include <optional>
-
+#include <algorithm>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "noise/field_plan.h"
 #include "sim/level_ladder.h"
@@ -76,14 +76,39 @@ struct BlurPlan {
   friend bool operator==(const BlurPlan&, const BlurPlan&) = default;
 };
 
+struct ShakePlan {
+  int reach_x_px = 0, reach_y_px = 0;  // how far the camera may be off its first place
+
+  template <class Self, class Visitor>
+  static void Fields(Self& self, Visitor& visit) {
+    visit(
+        Field{.name = "reach_x_px", .unit = "px", .help = "how far the camera may be off its place along x"},
+        self.reach_x_px);
+    visit(Field{.name = "reach_y_px", .unit = "px", .help = "the same along y"}, self.reach_y_px);
+  }
+  friend bool operator==(const ShakePlan&, const ShakePlan&) = default;
+};
+
 struct ClipPlan {
   ClipShape shape;
-  std::optional<TiltPlan> tilt;  // absent: no noise, no warp
-  std::optional<BlurPlan> blur;  // absent: no blur
-  bool linear_light = false;     // decode sRGB before, encode after
-  bool read_once = false;        // the source is a still
-  bool render_once = false;      // nothing moves: every frame is the first one
-  int halo_px = 0;               // px of the source that are read around the crop
+  std::optional<TiltPlan> tilt;    // absent: no noise, no warp
+  std::optional<BlurPlan> blur;    // absent: no blur
+  std::optional<ShakePlan> shake;  // absent: the camera stands
+  int objects = 0;                 // that are composed into each frame
+  bool own_distances = false;      // tilt and sigma are scaled where an object is seen
+  bool linear_light = false;       // decode sRGB before, encode after
+  bool sensor = false;             // every pixel passes through it
+  Compression compression = Compression::kNone;
+  bool read_once = false;    // the source is a still
+  bool render_once = false;  // nothing moves: every frame is the first one
+  int halo_px = 0;           // px around what the camera sees that turbulence and interpolation read
+
+  // How far outside itself a pixel may be taken from, shake's whole px aside.
+  int WarpMargin() const;
+  // Px of the steady frame that are read around the crop over all frames.
+  int AroundPx() const { return halo_px + (shake ? std::max(shake->reach_x_px, shake->reach_y_px) : 0); }
+  // What is read of the steady frame for a frame of this shake; (0, 0) is the crop's first pixel.
+  cv::Rect Window(cv::Point2d shake_px) const;
 
   friend bool operator==(const ClipPlan&, const ClipPlan&) = default;
 };

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "noise/simplex.h"
+#include "sim/camera.h"
 #include "sim/fields.h"
+#include "sim/sensor.h"
 
 namespace shimmer::sim {
 
@@ -177,10 +179,14 @@ struct Accuracy {
 
 // All that the simulation of a clip depends on, but for the clean frames themselves.
 struct Scene {
-  TiltParams tilt;
-  BlurParams blur;
+  TiltParams tilt = {};
+  BlurParams blur = {};
   bool still = true;  // the source is one image, not a video
   Colour colour = Colour::kStored;
+  SensorParams sensor = {};  // works on the light that the turbulence works on
+  CameraParams camera = {};
+  int objects = 0;             // that move in front of it (sim/moving_scene.h)
+  bool own_distances = false;  // one of them has other turbulence than the background
 
   void Validate() const;  // throws std::invalid_argument
 };

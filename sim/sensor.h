@@ -1,5 +1,5 @@
 // What a sensor makes of the light that reaches it: a veil, photon noise, read noise, quantisation. In this
-// order, each off by default. Compression comes after the frame is whole (sim/app).
+// order, each off by default. Compression comes after them, when the frame is whole (sim/app).
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,17 @@
 
 namespace shimmer::sim {
 
+enum class Compression { kNone, kJpeg, kH264 };
+
 struct SensorParams {
   double veil = 0;
   double veil_level = 0.8;
   double full_well = 0;
   double read_noise = 0;
   int bits = 0;
+  Compression compression = Compression::kNone;
+  int jpeg_quality = 60;
+  double h264_crf = 28;
 
   bool Noisy() const { return full_well > 0 || read_noise > 0; }
   bool On() const { return veil > 0 || Noisy() || bits > 0; }
@@ -56,6 +61,18 @@ struct SensorParams {
             .help =
                 "the sensor's own quantisation: samples become multiples of 1 / (2^bits - 1). 0 means none"},
         self.bits);
+    visit(Field{.name = "compression",
+                .names = {"none", "jpeg", "h264"},
+                .help = "what the camera writes, decoded again: each frame a JPEG, or all of them an H.264 "
+                        "stream; of 8 bits, colour at half the resolution"},
+          self.compression);
+    visit(Field{.name = "jpeg_quality", .low = 1, .high = 100, .help = "jpeg: 100 is the best"},
+          self.jpeg_quality);
+    visit(Field{.name = "h264_crf",
+                .low = 0,
+                .high = 51,
+                .help = "h264: constant rate factor of x264; 0 is lossless, 23 its default, 51 the worst"},
+          self.h264_crf);
   }
 };
 

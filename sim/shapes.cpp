@@ -99,11 +99,13 @@ cv::Rect2d Extent(const ShapePart& part) {
   return {low, high};
 }
 
-// The line of a part, as a pose in the object's plane.
-Pose LineOf(const ShapePart& part) {
-  const cv::Point2d line = part.b - part.a;
-  const bool turns = part.kind == Kind::kCapsule && line.dot(line) > 0;
-  return {.centre = part.a, .turns = turns ? std::atan2(line.y, line.x) / 6.283185307179586 : 0};
+// A part as it moves with its line. No libm: the same bits on every machine.
+Carry CarryOf(const ShapePart& now, const ShapePart& next) {
+  const cv::Point2d line = now.b - now.a, next_line = next.b - next.a;
+  const double length2 = line.dot(line) * next_line.dot(next_line);
+  if (now.kind != Kind::kCapsule || !(length2 > 0)) return {now.a, next.a, {1, 0}};
+  const cv::Point2d turn(line.dot(next_line), line.x * next_line.y - line.y * next_line.x);
+  return {now.a, next.a, turn / std::sqrt(length2)};
 }
 
 }  // namespace
@@ -139,8 +141,11 @@ Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pos
   const cv::Point2d along = UnitVector(pose.turns),
                     across(-along.y, along.x);  // of the object's x and y on screen
   cv::Point2d low = pose.centre, high = pose.centre;
+  std::vector<cv::Rect2d> extents;  // where a part covers anything of a pixel
   for (const ShapePart& part : parts) {
     const cv::Rect2d extent = Extent(part);
+    const double px = 1 / unit_px;
+    extents.emplace_back(extent.x - px, extent.y - px, extent.width + 2 * px, extent.height + 2 * px);
     for (const double x : {extent.x, extent.x + extent.width})
       for (const double y : {extent.y, extent.y + extent.height}) {
         const cv::Point2d corner = pose.centre + (along * x + across * y) * unit_px;
@@ -156,7 +161,9 @@ Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pos
       const cv::Point2d off = (cv::Point2d(area.x + x, area.y + y) - pose.centre) / unit_px;
       const cv::Point2d place(off.dot(along), off.dot(across));
       cv::Vec4f& pixel = layer.rgba.at<cv::Vec4f>(y, x);
-      for (const ShapePart& part : parts) {
+      for (size_t i = 0; i < parts.size(); ++i) {
+        if (!extents[i].contains(place)) continue;
+        const ShapePart& part = parts[i];
         const auto covered = static_cast<float>(std::clamp(0.5 - part.DistanceTo(place) * unit_px, 0.0, 1.0));
         if (covered <= 0) continue;
         const cv::Vec3f& colour = part.colour;
@@ -172,12 +179,15 @@ cv::Mat PartsFlow(const std::vector<ShapePart>& now, const Pose& pose, const std
   const double unit_px = height_px * pose.scale;
   const Pose plane{.centre = {0, 0}, .scale = 1 / height_px};  // the object's own, of which the poses are
   cv::Mat flow(area.size(), CV_32FC2, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+  const Carry to_plane(pose, plane), to_next(plane, next_pose);
+  std::vector<Carry> parts;
+  for (size_t i = 0; i < now.size(); ++i) parts.push_back(CarryOf(now[i], next[i]));
   for (int y = 0; y < area.height; ++y)
     for (int x = 0; x < area.width; ++x) {
-      const cv::Point2d pixel(area.x + x, area.y + y), place = Moved(pixel, pose, plane);
+      const cv::Point2d pixel(area.x + x, area.y + y), place = to_plane(pixel);
       for (size_t i = now.size(); i-- > 0;) {  // the nearest part first
         if (now[i].painted || now[i].DistanceTo(place) * unit_px > 0) continue;
-        const cv::Point2d there = Moved(Moved(place, LineOf(now[i]), LineOf(next[i])), plane, next_pose);
+        const cv::Point2d there = to_next(parts[i](place));
         flow.at<cv::Vec2f>(y, x) = {static_cast<float>(there.x - pixel.x),
                                     static_cast<float>(there.y - pixel.y)};
         break;

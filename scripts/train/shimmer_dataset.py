@@ -29,15 +29,20 @@ except ImportError:
     torch, Dataset = None, object
 
 # What a file is, by its folder, or in a tar file by the second part of its name.
-KINDS = {"turb": "turb", "lq": "turb", "clean": "clean", "noturb": "clean", "gt": "clean", "truth": "truth"}
-TRUTH = {"dx": "tilt", "dy": "tilt", "sigma": "sigma"}  # channel -> what output.truth calls it
+KINDS = {"turb": "turb", "lq": "turb", "clean": "clean", "noturb": "clean", "gt": "clean", "truth": "truth",
+         "mask": "mask", "flow": "flow", "shake": "shake"}
+# channel -> what output.truth calls it, and the kind of file that it is in
+TRUTH = {"dx": "tilt", "dy": "tilt", "sigma": "sigma", "mask": "mask", "u": "flow", "v": "flow"}
+TRUTH_FILES = {"tilt": "truth", "sigma": "truth", "mask": "mask", "flow": "flow"}
 
 
 class ShimmerDataset(Dataset):
     """Items are windows of frames of finished clips, ordered by clip: (turb, clean), or (turb, clean, truth).
 
     With frames=1 each is C x H x W, otherwise T x C x H x W, float32. PNG values are in [0, 1], EXR values as they are
-    in the file. Truth is in px, and stays true where a crop is reflected or an item is flipped.
+    in the file. Truth is in px, a mask in [0, 1], and stays true where a crop is reflected or an item is flipped. Of a
+    clip's last frame there is no flow: its u and v are NaN. mask(), flow() and shake() give the same of an item's whole
+    frames, as it is in the files.
 
     folder     the data set's folder, which holds dataset.json
     split      "train" or "test": by output.test_fraction, the same clips in every layout; None: all
@@ -45,7 +50,7 @@ class ShimmerDataset(Dataset):
     step       frames from the start of an item to the start of the next in its clip; None: as many as frames
     crop       side of a random square, reflected at the frame's right and bottom where that is smaller; None: all of it
     flip       True: half of the items are mirrored left to right
-    truth      channels to read, any of "dx", "dy", "sigma"
+    truth      channels to read, any of "dx", "dy", "sigma"; and of the steady frame "mask", "u", "v"
     rgb        True: a grey frame becomes three equal channels; False: one
     transform  is given the tensors of an item and returns what is the item
     seed       crop and flip are functions of (seed, epoch, index), whatever the workers
@@ -64,6 +69,7 @@ class ShimmerDataset(Dataset):
         self.folder, self.frames, self.crop, self.flip = Path(folder), frames, crop, flip
         self.truth, self.rgb, self.transform, self.seed = tuple(truth), rgb, transform, seed
         output = _read_config(self.folder)["output"]
+        self._written = tuple(output["truth"])
         for channel in self.truth:
             if TRUTH.get(channel) not in output["truth"]:
                 raise ValueError(f"{folder}: its truth has no {channel!r}: output.truth is {output['truth']}")
@@ -98,7 +104,7 @@ class ShimmerDataset(Dataset):
         cut = _Cut(turb[0].shape, self.crop, self.flip, rng)
         item = [cut.apply(turb), cut.apply(self._frames(line, "clean", first, count))]
         if self.truth:
-            item.append(cut.turn_shifts(cut.apply(self._frames(line, "truth", first, count)), self.truth))
+            item.append(cut.turn_shifts(cut.apply(self._truth(line, first, count)), self.truth))
         item = [array[0] if self.frames == 1 else array for array in item]
         item = [torch.from_numpy(array) if torch else array for array in item]
         return self.transform(*item) if self.transform else tuple(item)
@@ -117,6 +123,68 @@ class ShimmerDataset(Dataset):
             pass
         raise ValueError(f"{path}: clip {clip}: its line is no longer where it was; make the data set anew")
 
+    def mask(self, index: int) -> np.ndarray | None:
+        """How much of each pixel of an item's steady frames moving things cover: float32 in [0, 1], H x W or T x H x W.
+
+        Of whole frames, without crop and flip. None: output.truth has no "mask".
+        """
+        masks = self._of_item(index, "mask")
+        return masks and self._one_or_all(np.stack([_unit(mask)[:, :, 0] for mask in masks]))
+
+    def flow(self, index: int) -> np.ndarray | None | list[np.ndarray | None]:
+        """Where what is seen in a steady frame is in the next, px: H x W x 2 (u, v), or a list of them for windows.
+
+        Of whole frames, without crop and flip. None in place of that of a clip's last frame, which has none, and where
+        output.truth has no "flow".
+        """
+        flows = self._of_item(index, "flow")
+        return flows and self._one_or_all(flows)
+
+    def shake(self, index: int) -> np.ndarray | None:
+        """The camera's shake (x, y) in an item's frames, px, float64: 2 or T x 2. steady(p) = shaken(p + s).
+
+        Of frames that are not mirrored. None: output.truth has no "shake".
+        """
+        if "shake" not in self._written:
+            return None
+        row, first = self._place(index)
+        line = self.line(index)
+        count = int(self._index[row, 3]) if self.frames == "all" else self.frames
+        files = [file for file in line["files"] if _kind(file, self.layout) == "shake"]
+        if len(files) != 1:
+            raise ValueError(f"{self.folder}: clip {line['clip']}: has {len(files)} files of its shake, must have one")
+        data, where = self._bytes(files[0], line["clip"])
+        try:
+            shifts = np.array(json.loads(data)["shifts_px"], np.float64).reshape(-1, 2)[first:first + count]
+        except (ValueError, KeyError, TypeError):
+            raise ValueError(f"{where}: is no shake") from None
+        if len(shifts) != count:
+            raise ValueError(f"{where}: has no shift for frame {first + len(shifts)}")
+        return self._one_or_all(shifts)
+
+    def _one_or_all(self, frames: Any) -> Any:
+        return frames[0] if self.frames == 1 else frames
+
+    def _of_item(self, index: int, kind: str) -> list[np.ndarray | None] | None:
+        if kind not in self._written:
+            return None
+        row, first = self._place(index)
+        return self._frames(self.line(index), kind, first,
+                            int(self._index[row, 3]) if self.frames == "all" else self.frames)
+
+    def _truth(self, line: dict[str, Any], first: int, count: int) -> list[np.ndarray]:
+        """The channels of self.truth, H x W x C float32 each frame."""
+        planes: dict[str, list[np.ndarray]] = {}
+        for kind in dict.fromkeys(TRUTH_FILES[TRUTH[channel]] for channel in self.truth):
+            names = [channel for channel in self.truth if TRUTH_FILES[TRUTH[channel]] == kind]
+            frames = self._frames(line, kind, first, count, names)
+            if frames[-1] is None:  # of the last frame there is no flow
+                shape = (frames[0] if count > 1 else self._frames(line, "turb", first, 1)[0]).shape[:2]
+                frames[-1] = np.full((*shape, len(names)), np.nan, np.float32)
+            for number, name in enumerate(names):
+                planes[name] = [_unit(frame)[:, :, number] for frame in frames]
+        return [np.stack([planes[channel][k] for channel in self.truth], axis=2) for k in range(count)]
+
     def _place(self, index: int) -> tuple[int, int]:
         """Row of an item's clip in the index, and the item's first frame."""
         if not -len(self) <= index < len(self):
@@ -125,18 +193,21 @@ class ShimmerDataset(Dataset):
         row = int(np.searchsorted(self._ends, index, side="right"))
         return row, (index - int(self._ends[row - 1] if row else 0)) * self._step
 
-    def _frames(self, line: dict[str, Any], kind: str, first: int, count: int) -> list[np.ndarray]:
-        """Frames of a clip as they are in their files, H x W x C each."""
+    def _frames(self, line: dict[str, Any], kind: str, first: int, count: int,
+                channels: Sequence[str] = ("u", "v")) -> list[np.ndarray | None]:
+        """Frames of a clip as they are in their files, H x W x C each. Flow of a clip's last frame: None."""
         files = [file for file in line["files"] if _kind(file, self.layout) == kind]
         alone = kind == "clean" and len(files) == 1  # the same for every frame
         chosen = files if alone else files[first:first + count]
-        if len(chosen) != (1 if alone else count):
+        last = kind == "flow" and first + count == sum(_kind(file, self.layout) == "turb" for file in line["files"])
+        if len(chosen) != (1 if alone else count - last):
             raise ValueError(f"{self.folder}: clip {line['clip']}: has no {kind} for its frame {first + len(chosen)}")
-        frames = [self._read(file, line["clip"], self.truth if kind == "truth" else ()) for file in chosen]
-        return frames * count if alone else frames
+        channels = channels if kind in ("truth", "flow") else ()
+        frames = [self._read(file, line["clip"], channels, self.rgb and kind != "mask") for file in chosen]
+        return frames * count if alone else frames + [None] * last
 
-    def _read(self, file: dict[str, Any], clip: int, channels: Sequence[str]) -> np.ndarray:
-        """A frame, or channels of the truth. Files are open only in here: workers share none."""
+    def _bytes(self, file: dict[str, Any], clip: int) -> tuple[bytes, str]:
+        """A file's bytes, and how an error names it. Files are open only in here: workers share none."""
         path, name = self.folder / file["path"], file.get("member", file["path"])
         where = f"{path}: clip {clip}" + (f": {name}" if "member" in file else "")
         try:
@@ -147,14 +218,19 @@ class ShimmerDataset(Dataset):
             raise FileNotFoundError(f"{where}: is not there, though the manifest names it") from None
         if len(data) != file.get("bytes", len(data)):
             raise ValueError(f"{where}: ends after {len(data)} of its {file['bytes']} bytes")
-        if not name.endswith(".exr"):
-            return _decode_png(data, where, self.rgb)
+        return data, where
+
+    def _read(self, file: dict[str, Any], clip: int, channels: Sequence[str], rgb: bool) -> np.ndarray:
+        """A frame, or channels of the truth."""
+        data, where = self._bytes(file, clip)
+        if not file.get("member", file["path"]).endswith(".exr"):
+            return _decode_png(data, where, rgb)
         if "member" not in file:
-            return _read_exr(str(path), where, channels, self.rgb)
+            return _read_exr(str(self.folder / file["path"]), where, channels, rgb)
         with tempfile.NamedTemporaryFile(suffix=".exr") as copy:  # OpenImageIO's Python reads files, not memory
             copy.write(data)
             copy.flush()
-            return _read_exr(copy.name, where, channels, self.rgb)
+            return _read_exr(copy.name, where, channels, rgb)
 
 
 class _Cut:
@@ -181,11 +257,11 @@ class _Cut:
         return values
 
     def turn_shifts(self, truth: np.ndarray, channels: Sequence[str]) -> np.ndarray:
-        """Where the image is mirrored, so are its shifts: dx left to right, dy top to bottom."""
+        """Where the image is mirrored, so are its shifts: dx and u left to right, dy and v top to bottom."""
         for number, channel in enumerate(channels):
-            if channel == "dx":
+            if channel in ("dx", "u"):
                 truth[:, number] *= -self._signs(1)[::-1] if self.flip else self._signs(1)
-            elif channel == "dy":
+            elif channel in ("dy", "v"):
                 truth[:, number] *= self._signs(0)[:, None]
         return truth
 
@@ -194,6 +270,13 @@ class _Cut:
         border = max(self.shape[axis] - 1, 1)
         position = self.start[axis] + np.arange(self.size[axis])
         return np.where(position % (2 * border) > border, -1, 1).astype(np.float32)
+
+
+def _unit(frame: np.ndarray) -> np.ndarray:
+    """float32; whole numbers are brought to [0, 1]."""
+    if np.issubdtype(frame.dtype, np.integer):
+        return frame.astype(np.float32) / np.float32(np.iinfo(frame.dtype).max)
+    return frame
 
 
 def _decode_png(data: bytes, where: str, rgb: bool) -> np.ndarray:
@@ -231,9 +314,11 @@ def _read_config(folder: Path) -> dict[str, Any]:
 
 
 def _kind(file: dict[str, Any], layout: str) -> str | None:
-    """"turb", "clean", "truth", or None for what is none of them."""
+    """"turb", "clean", "truth", "mask", "flow", "shake", or None for what is none of them."""
     if layout == "webdataset":
         return KINDS.get(file["member"].split(".")[1])
+    if layout == "sequence" and file["path"].endswith("/shake.json"):
+        return "shake"
     return KINDS.get(file["path"].split("/")[-3 if layout == "basicsr" else -2])
 
 
@@ -291,7 +376,7 @@ def describe(folder: str | os.PathLike) -> None:
     channels = [channel for channel, key in TRUTH.items() if key in output["truth"]]
     item = ShimmerDataset(folder, frames="all", truth=channels)[0] if len(index) else ()
     for name, frames in zip(("turb", "clean", "truth"), item):
-        print(f"{name:5} {' x '.join(map(str, frames.shape))}, {frames.min():.3f} to {frames.max():.3f}")
+        print(f"{name:5} {' x '.join(map(str, frames.shape))}, {np.nanmin(frames):.3f} to {np.nanmax(frames):.3f}")
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@
 namespace shimmer::app {
 
 // As many clips as a tar of output.tar_mb holds whatever they show (one at least): where a clip lies must not
-// hang on how well others compress. still: all clean frames of a clip are one.
-int64_t ClipsPerTar(const ConfigFile& config, bool still);
+// hang on how well others compress. one_clean: all clean frames of a clip are one.
+int64_t ClipsPerTar(const ConfigFile& config, bool one_clean);
 
 // What `shimmer generate` may hold in memory, and what it does with it.
 struct MemoryPlan {

@@ -84,8 +84,8 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   const auto start = std::chrono::steady_clock::now();
   const std::unique_ptr<dataset::DatasetWriter> writer = OpenFolder(options, job, stop);
   if (!writer) return kExitInterrupted;
-  job.sources.Remember(options.out);
-  if (job.sources.kind() != SourceKind::kDrawn) NoteConfigFolder(options.out, options.config.parent_path());
+  job.RememberSources(options.out);
+  if (job.FromFiles()) NoteConfigFolder(options.out, options.config.parent_path());
   const std::vector<int64_t> pending =
       dataset::PendingClips(writer->layout(), wanted, writer->done(), writer->failed());
 

@@ -36,6 +36,7 @@ inline constexpr uint64_t kPictureCacheBytes = 512 << 20;
 struct Job {
   ConfigFile config;
   SourceList sources;
+  std::vector<SourceList> object_sources;  // of each of config.objects; of kind kDrawn where it is drawn
   std::unique_ptr<dataset::PictureCache> pictures =
       std::make_unique<dataset::PictureCache>(kPictureCacheBytes);  // that sources are read through
 
@@ -51,6 +52,10 @@ struct Job {
   static Job OfDataset(const std::filesystem::path& folder, const Json& description,
                        const std::filesystem::path& config_folder,
                        const std::atomic<bool>& stop = dataset::kNeverStop);
+
+  // Remembers the hashes of all of them, once out is a data set's folder.
+  void RememberSources(const std::filesystem::path& out);
+  bool FromFiles() const;  // any of them
 
   // What dataset.json says: config, its hash, sources with hashes, engine, version.
   Json Description() const;

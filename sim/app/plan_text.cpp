@@ -106,18 +106,41 @@ void AddBlur(const Config& config, const sim::ClipPlan& plan, std::vector<std::s
     lines.push_back("blur, levels that no sigma of a block of 64 px asks for");
 }
 
+Json CompressionName(sim::Compression compression) {
+  return compression == sim::Compression::kNone   ? Json()
+         : compression == sim::Compression::kJpeg ? Json("jpeg")
+                                                  : Json("h264");
+}
+
 }  // namespace
 
 Json PlanJson(const sim::ClipPlan& plan) {
-  return {{"tilt", PartJson(plan.tilt)},       {"blur", PartJson(plan.blur)},
-          {"linear_light", plan.linear_light}, {"read_once", plan.read_once},
-          {"render_once", plan.render_once},   {"halo_px", plan.halo_px}};
+  return {{"tilt", PartJson(plan.tilt)},
+          {"blur", PartJson(plan.blur)},
+          {"linear_light", plan.linear_light},
+          {"shake", PartJson(plan.shake)},
+          {"objects", plan.objects},
+          {"own_distances", plan.own_distances},
+          {"sensor", plan.sensor},
+          {"compression", CompressionName(plan.compression)},
+          {"read_once", plan.read_once},
+          {"render_once", plan.render_once},
+          {"halo_px", plan.halo_px}};
 }
 
 std::vector<std::string> SkippedLines(const Config& config, const sim::ClipPlan& plan) {
   std::vector<std::string> lines;
   AddTilt(plan, lines);
   AddBlur(config, plan, lines);
+  if (!plan.shake) lines.push_back("shake: the camera stands, nothing is resampled for it");
+  if (plan.objects == 0) lines.push_back("objects: none moves, nothing is composed");
+  if (plan.objects > 0 && plan.read_once)
+    lines.push_back(
+        "composing and preparing, all but what an object covers or has left: the background stands");
+  if (plan.objects > 0 && !plan.own_distances)
+    lines.push_back("strength of the turbulence by objects: all have the background's distance");
+  if (!plan.sensor) lines.push_back("sensor: nothing of it is on");
+  if (plan.compression == sim::Compression::kNone) lines.push_back("compression: sensor.compression is none");
   if (plan.render_once) lines.push_back("rendering, all frames but one: nothing moves");
   if (plan.read_once) lines.push_back("source, all frames but one: it is a still, decoded once");
   lines.push_back("frames before " + std::to_string(config.first_frame) + " and after " +
@@ -125,7 +148,7 @@ std::vector<std::string> SkippedLines(const Config& config, const sim::ClipPlan&
   if (plan.shape.frames < config.frames)
     lines.push_back("all but " + std::to_string(plan.shape.frames) + " of " + std::to_string(config.frames) +
                     " frames: pairs keep no more");
-  lines.push_back("source further than " + Px(plan.halo_px) + " from the crop");
+  lines.push_back("source further than " + Px(plan.AroundPx()) + " from the crop");
   lines.push_back(
       "source, where it has it: alpha; two of three equal channels; tilt and blur of regions of one colour");
   return lines;

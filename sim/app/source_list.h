@@ -25,29 +25,40 @@ class SourceList {
  public:
   // Relative patterns are looked up below config_folder, then below the working directory. What lies below
   // out, where clips go, is no source. Files are hashed on all threads, but for those that out remembers from
-  // an earlier run. Throws ConfigError where nothing matches, dataset::Interrupted once stop is set.
-  static SourceList Find(const SourceParams& source, const std::filesystem::path& config_folder,
+  // an earlier run. section: where the patterns stand in the config; hashes: shared by all lists of a run.
+  // Throws ConfigError where nothing matches, or where there are not as many masks as what they are of;
+  // dataset::Interrupted once stop is set.
+  static SourceList Find(const FilePatterns& patterns, const std::filesystem::path& config_folder,
                          const std::filesystem::path& out,
-                         const std::atomic<bool>& stop = dataset::kNeverStop);
+                         const std::atomic<bool>& stop = dataset::kNeverStop,
+                         const std::string& section = "/source",
+                         std::shared_ptr<dataset::HashMemory> hashes = nullptr);
 
   // Remembers the hashes in out, once it is a data set's folder, for the next run. Once.
   void Remember(const std::filesystem::path& out);
 
   SourceKind kind() const { return kind_; }
   bool still() const { return kind_ == SourceKind::kImages || kind_ == SourceKind::kDrawn; }
-  const std::vector<std::filesystem::path>& items() const { return items_; }  // empty for drawn scenes
+  const std::vector<std::filesystem::path>& items() const { return items_.paths; }  // empty for drawn scenes
+  const std::vector<std::filesystem::path>& masks() const { return masks_.paths; }  // one an item, or none
 
   // {"path": ..., "sha256": ...}. The path is relative to the config's folder for what lies in it, else
   // absolute. The hash is of a file's bytes, or of the hashes of a sequence's frames; null for one that can't
   // be read: its clips will fail, and say why.
   const Json& Record(size_t item) const { return records_.at(item); }
-  const Json& Records() const { return records_; }  // an array, in the order of items()
+  // An array, in the order of items(); after them those of masks(), with "mask_of": the item's path.
+  const Json& Records() const { return records_; }
 
   // Pictures are read through the cache, which must outlive the reader. Throws std::runtime_error. A video's
   // frames are counted once, by decoding it, for all clips that use it.
   // Reading a video throws dataset::Interrupted once stop is set, which must outlive the reader.
   std::unique_ptr<dataset::FrameReader> Open(size_t item, dataset::PictureCache& pictures,
-                                             const std::atomic<bool>& stop = dataset::kNeverStop) const;
+                                             const std::atomic<bool>& stop = dataset::kNeverStop) const {
+    return OpenOne(items_, item, pictures, stop);
+  }
+  // The masks of an item; as many frames as it has itself, or this throws.
+  std::unique_ptr<dataset::FrameReader> OpenMasks(size_t item, dataset::PictureCache& pictures,
+                                                  const std::atomic<bool>& stop = dataset::kNeverStop) const;
 
   // What is odd about a video that has been opened; empty if nothing.
   std::string Remark(size_t item) const;
@@ -58,12 +69,20 @@ class SourceList {
     std::optional<int64_t> frames;
     std::string remark;
   };
+  struct Files {
+    std::vector<std::filesystem::path> paths;
+    std::unique_ptr<std::vector<VideoFacts>> videos;  // of each, where they are videos
+  };
+
+  std::unique_ptr<dataset::FrameReader> OpenOne(const Files& files, size_t item,
+                                                dataset::PictureCache& pictures,
+                                                const std::atomic<bool>& stop) const;
 
   SourceKind kind_ = SourceKind::kDrawn;
-  std::vector<std::filesystem::path> items_;
+  std::string section_;
+  Files items_, masks_;
   Json records_ = Json::array();
-  std::shared_ptr<dataset::HashMemory> hashes_;      // until they are remembered
-  std::unique_ptr<std::vector<VideoFacts>> videos_;  // of each item, where they are videos
+  std::shared_ptr<dataset::HashMemory> hashes_;  // until they are remembered
 };
 
 }  // namespace shimmer::app

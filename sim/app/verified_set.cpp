@@ -82,9 +82,10 @@ void Count(const Contents& contents, VerifiedSet& found) {
   found.clips = contents.clips + done_count - below(done);
   found.whole = done_count - std::ssize(not_whole);
   found.failed = below(contents.set.failed());
-  const int64_t frames = contents.frames;
-  found.files = done_count * (frames * (contents.truth ? 2 : 1) + (contents.layout.IsTars() ? 1 : 0)) +
-                one_clean + (done_count - one_clean) * frames;
+  found.files = contents.layout.IsTars() ? done_count : 0;
+  for (const dataset::FrameKind kind : dataset::kFrameKinds)
+    found.files +=
+        one_clean * contents.FilesOf(kind, true) + (done_count - one_clean) * contents.FilesOf(kind, false);
 }
 
 }  // namespace
@@ -99,7 +100,7 @@ VerifiedSet VerifySet(const fs::path& folder, const VerifiedSet* before, int thr
                           .layout = LayoutOfConfig(config),
                           .clips = config.fixed().clips,
                           .frames = KeptFrameCount(config.fixed()),
-                          .truth = !config.fixed().output.truth.empty()};
+                          .truth = dataset::TruthKinds(config.fixed().output.truth)};
   std::ranges::move(VerifyDescription(folder, set.description(), config, contents.layout),
                     std::back_inserter(found.problems));
 

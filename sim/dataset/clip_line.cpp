@@ -8,6 +8,27 @@
 #include "sim/dataset/numbered_name.h"
 
 namespace shimmer::dataset {
+namespace {
+
+const char* WordFor(FrameKind kind) {
+  switch (kind) {
+    case FrameKind::kTurb:
+      return "turbulent";
+    case FrameKind::kClean:
+      return "clean";
+    case FrameKind::kTruth:
+      return "truth";
+    case FrameKind::kMask:
+      return "mask";
+    case FrameKind::kFlow:
+      return "flow";
+    case FrameKind::kShake:
+      return "shake";
+  }
+  return "";
+}
+
+}  // namespace
 
 ClipLine ReadClipLine(const Contents& contents, int64_t clip) {
   const Json json = contents.set.Line(clip);
@@ -37,16 +58,12 @@ ClipLine ReadClipLine(const Contents& contents, int64_t clip) {
     ++count[place->kind];
   }
   line.one_clean = layout.OneCleanFile() && count[FrameKind::kClean] == 1;
-  const std::map<FrameKind, int64_t> right = {{FrameKind::kTurb, contents.frames},
-                                              {FrameKind::kClean, line.one_clean ? 1 : contents.frames},
-                                              {FrameKind::kTruth, contents.truth ? contents.frames : 0}};
-  for (const auto& [kind, files] : right)
-    if (count[kind] != files)
-      throw std::runtime_error("names " + std::to_string(count[kind]) +
-                               (kind == FrameKind::kTurb    ? " turbulent"
-                                : kind == FrameKind::kClean ? " clean"
-                                                            : " truth") +
-                               " files, must be " + std::to_string(files));
+  for (const FrameKind kind : kFrameKinds) {
+    const int64_t right = contents.FilesOf(kind, line.one_clean);
+    if (count[kind] != right)
+      throw std::runtime_error("names " + std::to_string(count[kind]) + " " + WordFor(kind) +
+                               " files, must be " + std::to_string(right));
+  }
   if (layout.IsTars() &&
       !names.contains(layout.TarPath(layout.UnitOf(clip)) + "/" + Padded(clip, 6) + ".json"))
     throw std::runtime_error("does not name its .json in the tar");

@@ -3,6 +3,7 @@
 // or frame that is not in the data set.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,9 +16,13 @@
 
 namespace shimmer::dataset {
 
-// By frame. clean has one where all clean frames are the same.
+inline constexpr std::array<const char*, 2> kFlowChannels = {"u", "v"};
+inline constexpr const char* kShakeKey = "shifts_px";  // of shake.json: [[x, y], ...], one a frame
+
+// By frame. clean has one where all clean frames are the same, flow one fewer than there are frames, shake
+// one; those that were not written are empty.
 struct ClipFiles {
-  std::vector<StoredFile> turb, clean, truth;
+  std::vector<StoredFile> turb, clean, truth, mask, flow, shake;
 };
 
 class DatasetReader {
@@ -43,8 +48,18 @@ class DatasetReader {
   std::optional<cv::Mat> TruthSigma(int64_t clip,
                                     int64_t frame) const;  // CV_32FC1, px; absent if not written
 
+  // Of the steady frame, its camera's shake removed: how much of each pixel moving objects cover, CV_32FC1 in
+  // [0, 1]; where what is seen there is in the next frame, CV_32FC2 (u, v) in px. Absent if not written, the
+  // flow for the last frame too.
+  std::optional<cv::Mat> TruthMask(int64_t clip, int64_t frame) const;
+  std::optional<cv::Mat> TruthFlow(int64_t clip, int64_t frame) const;
+
+  // s of each frame, px: steady(p) = shaken(p + s). Absent if not written.
+  std::optional<std::vector<cv::Point2d>> TruthShake(int64_t clip) const;
+
  private:
   Picture Read(const StoredFile& file) const;
+  std::optional<cv::Mat> Channels(const StoredFile& file, std::span<const std::string> channels) const;
   std::optional<cv::Mat> Truth(int64_t clip, int64_t frame, std::span<const std::string> channels) const;
 
   std::filesystem::path folder_;

@@ -263,7 +263,7 @@ void DatasetWriter::Remove(int64_t clip) const {
   const std::vector<std::string> folders = layout_.ClipFolders(clip);
   for (const std::string& folder : folders) RemoveAll(folder_ / folder);
   if (!folders.empty()) return;
-  for (const FrameKind kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth})
+  for (const FrameKind kind : kFrameKinds)
     for (int64_t frame = 0; frame < layout_.frames_per_clip; ++frame)
       RemoveAll(folder_ / layout_.Path(kind, clip, frame));
 }

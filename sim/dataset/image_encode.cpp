@@ -85,14 +85,19 @@ std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const s
   return WriteExr(samples, channels, "zips");
 }
 
-std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality) {
-  if (image.type() != CV_8UC3) throw std::invalid_argument("a JPEG's image must be CV_8UC3");
+std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality, JpegColour colour) {
+  if (image.type() != CV_8UC1 && image.type() != CV_8UC3)
+    throw std::invalid_argument("a JPEG of " + cv::typeToString(image.type()) +
+                                ", must be CV_8UC1 or CV_8UC3");
+  if (image.empty() || image.cols > kMaxSide_px || image.rows > kMaxSide_px)
+    throw std::invalid_argument("a JPEG of " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
+                                " px, must be 1 to " + std::to_string(kMaxSide_px) + " each way");
   if (quality < 1 || quality > 100)
     throw std::invalid_argument("quality = " + std::to_string(quality) + ", must be in [1, 100]");
   const cv::Mat samples = image.isContinuous() ? image : image.clone();
   OIIO::ImageSpec spec = SpecOf(samples, OIIO::TypeUInt8);
   spec["Compression"] = "jpeg:" + std::to_string(quality);
-  spec["jpeg:subsampling"] = "4:4:4";
+  spec["jpeg:subsampling"] = colour == JpegColour::kFull ? "4:4:4" : "4:2:0";
   return Write("jpeg", spec, samples);
 }
 

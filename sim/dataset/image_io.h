@@ -46,6 +46,17 @@ Picture ReadSamples(const std::filesystem::path& path, std::span<const uint8_t> 
 cv::Mat ReadChannels(const std::filesystem::path& path, std::span<const std::string> names,
                      std::span<const uint8_t> bytes = {});
 
+// A picture with alpha, to be laid over another.
+struct CutoutPicture {
+  cv::Mat rgb;    // CV_32FC3, not multiplied by alpha; black where alpha is 0
+  cv::Mat alpha;  // CV_32FC1 in [0, 1]
+  bool linear = false;
+};
+
+// Grey and alpha, or RGB and alpha; EXR, whose colours are multiplied by alpha, too. What is not finite is 0.
+// Throws std::runtime_error as ReadImage, and for a picture without alpha.
+CutoutPicture ReadCutout(const std::filesystem::path& path);
+
 // All channels of a file of ours, in its order, as the numbers that are in it: CV_8U, CV_16U, CV_16F or
 // CV_32F, as ToSamples gives them.
 cv::Mat StoredSamples(const std::filesystem::path& path, std::span<const uint8_t> bytes = {});
@@ -89,9 +100,12 @@ std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const s
 // A frame: PNG, or EXR with the channels Y or R, G, B.
 std::vector<uint8_t> EncodeImage(const cv::Mat& image, Encoding encoding);
 
-// For people to look at. image: CV_8UC3 RGB; quality in [1, 100]; colour as fine as brightness (4:4:4).
-// Throws std::invalid_argument for anything else.
-std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality);
+// Colour as fine as brightness (4:4:4), for people to look at; or one for 2x2 pixels (4:2:0), as of cameras.
+enum class JpegColour { kFull, kHalved };
+
+// image: CV_8UC1 or CV_8UC3 (RGB), each side up to kMaxSide_px; quality in [1, 100]. Throws
+// std::invalid_argument for anything else.
+std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality, JpegColour colour = JpegColour::kFull);
 
 // An animation that repeats for ever; frames: CV_8UC3 RGB of one size; each shown for delay_ms, rounded to 10
 // ms.

@@ -11,9 +11,30 @@
 namespace shimmer::dataset {
 namespace {
 
+constexpr const char* kShakeName = "shake";
+
+std::string ExtensionOf(FrameKind kind, FileFormat frames) {
+  switch (kind) {
+    case FrameKind::kTurb:
+    case FrameKind::kClean:
+      return Extension(frames);
+    case FrameKind::kMask:
+      return "png";
+    case FrameKind::kTruth:
+    case FrameKind::kFlow:
+      return "exr";
+    case FrameKind::kShake:
+      return "json";
+  }
+  throw std::logic_error("a frame of no kind");
+}
+
 // What a kind of frame is called, by layout: as its training code says.
 std::string FolderOf(FrameKind kind, LayoutKind layout) {
   if (kind == FrameKind::kTruth) return "truth";
+  if (kind == FrameKind::kMask) return "mask";
+  if (kind == FrameKind::kFlow) return "flow";
+  if (kind == FrameKind::kShake) return kShakeName;
   const bool turb = kind == FrameKind::kTurb;
   switch (layout) {
     case LayoutKind::kPairs:
@@ -63,18 +84,35 @@ void Layout::Validate() const {
   if (digits < 6 || digits > 18) throw std::invalid_argument("digits must be in [6, 18]");
 }
 
+std::set<FrameKind> TruthKinds(std::span<const std::string> truth) {
+  std::set<FrameKind> kinds;
+  for (const std::string& name : truth)
+    kinds.insert(name == "mask"    ? FrameKind::kMask
+                 : name == "flow"  ? FrameKind::kFlow
+                 : name == "shake" ? FrameKind::kShake
+                                   : FrameKind::kTruth);
+  return kinds;
+}
+
+int64_t FilesOfKind(FrameKind kind, int64_t frames, bool one_clean) {
+  if (kind == FrameKind::kShake || (kind == FrameKind::kClean && one_clean)) return 1;
+  return kind == FrameKind::kFlow ? frames - 1 : frames;
+}
+
 std::string Layout::Path(FrameKind frame_kind, int64_t clip, int64_t frame) const {
-  const std::string extension = frame_kind == FrameKind::kTruth ? "exr" : Extension(format);
-  const std::string folder = FolderOf(frame_kind, kind);
+  const std::string extension = ExtensionOf(frame_kind, format), folder = FolderOf(frame_kind, kind);
+  const bool of_clip = frame_kind == FrameKind::kShake;  // one file
+  if (of_clip) frame = 0;
   switch (kind) {
     case LayoutKind::kSequence:
+      if (of_clip) return ClipFolders(clip)[0] + "/" + folder + "." + extension;
       return ClipFolders(clip)[0] + "/" + folder + "/" + Padded(frame, 4) + "." + extension;
     case LayoutKind::kBasicsr:
       return PartOf(clip) + folder + "/" + Padded(clip % kClipsPerFolder, 3) + "/" + Padded(frame, 8) + "." +
              extension;
     case LayoutKind::kWebdataset:
-      return TarPath(UnitOf(clip)) + "/" + Padded(clip, 6) + "." + folder + "." + Padded(frame, 4) + "." +
-             extension;
+      return TarPath(UnitOf(clip)) + "/" + Padded(clip, 6) + "." + folder +
+             (of_clip ? "" : "." + Padded(frame, 4)) + "." + extension;
     case LayoutKind::kPairs:
     case LayoutKind::kRestormer:
       break;
@@ -88,13 +126,16 @@ std::optional<Layout::Place> Layout::PlaceOf(const std::string& path) const {
   const auto frame_kind = KindOfPath(path);
   if (!frame_kind) return {};
   const std::filesystem::path whole(path);
-  const auto number = NumberIn(whole.filename().string());
+  const bool of_clip = frame_kind == FrameKind::kShake;
+  const auto number = of_clip && kind == LayoutKind::kSequence ? std::optional<int64_t>(0)
+                                                               : NumberIn(whole.filename().string());
   if (!number) return {};
-  Place place{*frame_kind, 0, *number};
+  Place place{*frame_kind, 0, of_clip ? 0 : *number};
   std::optional<int64_t> clip;
   switch (kind) {
     case LayoutKind::kSequence:  // clips.001/001234/turb/0007.png
-      clip = NumberIn(whole.parent_path().parent_path().filename().string());
+      clip =
+          NumberIn((of_clip ? whole.parent_path() : whole.parent_path().parent_path()).filename().string());
       break;
     case LayoutKind::kBasicsr: {  // part001/lq/234/00000007.png
       clip = NumberIn(whole.parent_path().filename().string());
@@ -106,7 +147,7 @@ std::optional<Layout::Place> Layout::PlaceOf(const std::string& path) const {
     case LayoutKind::kWebdataset: {  // shards/000012.tar/000123.turb.0000.png
       const std::string name = whole.filename().string();
       clip = NumberIn(name.substr(0, name.find('.')));
-      const auto frame = NumberIn(whole.stem().extension().string());
+      const auto frame = of_clip ? std::optional<int64_t>(0) : NumberIn(whole.stem().extension().string());
       if (!frame) return {};
       place.frame = *frame;
       break;
@@ -131,7 +172,7 @@ std::vector<std::string> Layout::ClipFolders(int64_t clip) const {
   if (kind == LayoutKind::kSequence) return {ThousandOf(clip) + "/" + Padded(clip, 6)};
   std::vector<std::string> folders;
   if (kind == LayoutKind::kBasicsr)
-    for (const FrameKind frame_kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth})
+    for (const FrameKind frame_kind : kFrameKinds)
       folders.push_back(PartOf(clip) + FolderOf(frame_kind, kind) + "/" + Padded(clip % kClipsPerFolder, 3));
   return folders;
 }
@@ -139,12 +180,15 @@ std::vector<std::string> Layout::ClipFolders(int64_t clip) const {
 std::string Layout::TarPath(int64_t unit) const { return "shards/" + Padded(unit, 6) + ".tar"; }
 
 std::optional<FrameKind> KindOfPath(const std::string& path) {
-  constexpr std::array<std::pair<const char*, FrameKind>, 6> kKinds = {{{"turb", FrameKind::kTurb},
+  constexpr std::array<std::pair<const char*, FrameKind>, 9> kKinds = {{{"turb", FrameKind::kTurb},
                                                                         {"lq", FrameKind::kTurb},
                                                                         {"clean", FrameKind::kClean},
                                                                         {"noturb", FrameKind::kClean},
                                                                         {"gt", FrameKind::kClean},
-                                                                        {"truth", FrameKind::kTruth}}};
+                                                                        {"truth", FrameKind::kTruth},
+                                                                        {"mask", FrameKind::kMask},
+                                                                        {"flow", FrameKind::kFlow},
+                                                                        {kShakeName, FrameKind::kShake}}};
   const auto named = [&](const std::string& name) -> std::optional<FrameKind> {
     for (const auto& [kind_name, kind] : kKinds)
       if (name == kind_name) return kind;
@@ -158,6 +202,8 @@ std::optional<FrameKind> KindOfPath(const std::string& path) {
                ? std::nullopt
                : named(name.substr(dot + 1, next - dot - 1));
   }
+  if (whole.stem() == kShakeName && whole.extension() == ".json" && whole.has_parent_path())
+    return FrameKind::kShake;
   // The innermost folder that has such a name: output.name may be one too.
   for (auto folder = whole.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
     if (const auto kind = named(folder.filename().string())) return kind;

@@ -6,6 +6,10 @@
 //   basicsr     lq/123/00000000.png           gt/123/00000000.png            truth/123/00000000.exr
 //   webdataset  shards/000012.tar/000123.turb.0000.png, ...: a path in a tar as if the tar were a folder
 //
+// What is known of a clip lies beside its frames, in folders of the same kind: truth/ (EXR: dx, dy, sigma),
+// mask/ (PNG), flow/ (EXR: from a frame to the next, so none of the last), and one shake.json a clip: in
+// sequence clips/000123/shake.json, in a tar 000123.shake.json, elsewhere shake/, as if it were frame 0.
+//
 // Of pairs and restormer a clip lies in NAME/train or NAME/test, numbered clip * frames_per_clip + frame.
 // Training code reads them by listing two folders and taking them in sorted order, so nothing else may ever
 // lie in those, and every number in them must have the same length: they are flat, however large the set.
@@ -13,8 +17,11 @@
 // part001/gt/, part001/lq/, and so on; of basicsr each part is numbered from 000 and is a set of its own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,11 +30,20 @@
 namespace shimmer::dataset {
 
 enum class LayoutKind { kSequence, kPairs, kRestormer, kBasicsr, kWebdataset };
-enum class FrameKind { kTurb, kClean, kTruth };
+enum class FrameKind { kTurb, kClean, kTruth, kMask, kFlow, kShake };
+inline constexpr std::array<FrameKind, 6> kFrameKinds = {FrameKind::kTurb,  FrameKind::kClean,
+                                                         FrameKind::kTruth, FrameKind::kMask,
+                                                         FrameKind::kFlow,  FrameKind::kShake};
+
+// The kinds that stand beside turb and clean where output.truth says so: tilt and sigma share one file.
+std::set<FrameKind> TruthKinds(std::span<const std::string> truth);
+
+// How many files of a kind a clip of so many frames has, if it has any.
+int64_t FilesOfKind(FrameKind kind, int64_t frames, bool one_clean);
 
 struct Layout {
   LayoutKind kind = LayoutKind::kSequence;
-  FileFormat format = FileFormat::kPng;  // of turb and clean; truth is EXR
+  FileFormat format = FileFormat::kPng;  // of turb and clean
 
   // Of pairs and restormer only:
   std::string name = "shimmer";

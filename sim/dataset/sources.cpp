@@ -7,6 +7,7 @@
 #include "sim/dataset/glob.h"
 #include "sim/dataset/image_io.h"
 #include "sim/dataset/numbered_name.h"
+#include "sim/dataset/pattern_list.h"
 
 namespace shimmer::dataset {
 namespace {
@@ -26,23 +27,59 @@ bool HasExtension(const fs::path& path, const std::vector<std::string>& extensio
 // What one pattern means below one base; empty where it means nothing.
 using Lookup = std::function<std::vector<fs::path>(const fs::path& base, const std::string& pattern)>;
 
+// The matches below the first of bases that has any. Throws with the places looked in where none has; what is
+// what the error says of the pattern.
+std::vector<fs::path> FirstMatches(const std::string& pattern, std::span<const fs::path> bases,
+                                   const Lookup& lookup, const std::string& what) {
+  std::vector<std::string> places;
+  for (const fs::path& base : bases) {
+    std::vector<fs::path> matches = lookup(base, pattern);
+    if (!matches.empty()) return matches;
+    if (fs::path(pattern).is_absolute()) break;
+    const std::string place = fs::absolute(base.empty() ? "." : base).lexically_normal().string();
+    if (std::ranges::find(places, place) == places.end()) places.push_back(place);
+  }
+  std::string error = "'" + pattern + "': " + what;
+  for (const std::string& place : places) error += (place == places[0] ? "; looked in " : " and ") + place;
+  throw std::runtime_error(error);
+}
+
+std::vector<fs::path> FindPattern(const std::string& pattern, std::span<const fs::path> bases,
+                                  const Lookup& lookup) {
+  return FirstMatches(pattern, bases, lookup, "nothing found");
+}
+
+// What the patterns of a list mean.
+std::vector<fs::path> FindListed(const std::string& pattern, std::span<const fs::path> bases,
+                                 const Lookup& lookup) {
+  const auto as_file = [](const fs::path& base, const std::string& name) {
+    const fs::path path = base / name;
+    return fs::is_regular_file(path) ? std::vector{path} : std::vector<fs::path>();
+  };
+  const fs::path list = FirstMatches(pattern, bases, as_file,
+                                     "no such list, a name that ends in .txt must be that of a text file "
+                                     "with one pattern a line")[0];
+  std::vector<fs::path> all_bases = {list.parent_path()};
+  all_bases.insert(all_bases.end(), bases.begin(), bases.end());
+  std::vector<fs::path> found;
+  for (const ListedPattern& listed : ReadPatternList(list)) {
+    try {
+      const std::vector<fs::path> matches = FindPattern(listed.pattern, all_bases, lookup);
+      found.insert(found.end(), matches.begin(), matches.end());
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(list.string() + ":" + std::to_string(listed.line) + ": " + error.what() +
+                               "; a # before a line skips it");
+    }
+  }
+  return found;
+}
+
 std::vector<fs::path> Find(std::span<const std::string> patterns, std::span<const fs::path> bases,
                            const Lookup& lookup) {
   std::vector<fs::path> found;
   for (const std::string& pattern : patterns) {
-    std::vector<fs::path> matches;
-    std::string places;
-    for (const fs::path& base : bases) {
-      matches = lookup(base, pattern);
-      if (!matches.empty() || fs::path(pattern).is_absolute()) break;
-      const std::string place = fs::absolute(base.empty() ? "." : base).lexically_normal().string();
-      if (places.empty())
-        places = "; looked in " + place;
-      else if (!places.ends_with(" " + place))
-        places += " and " + place;
-    }
-    if (matches.empty()) throw std::runtime_error("'" + pattern + "': nothing found" + places);
-    for (const fs::path& match : matches) found.push_back(match.lexically_normal());
+    const auto find = NamesList(pattern) ? FindListed : FindPattern;
+    for (const fs::path& match : find(pattern, bases, lookup)) found.push_back(match.lexically_normal());
   }
   std::ranges::sort(found, {}, [](const fs::path& path) -> const std::string& { return path.native(); });
   const auto repeats = std::ranges::unique(found);

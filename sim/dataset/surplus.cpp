@@ -107,8 +107,7 @@ class Walk {
     }
     const auto place = layout_.IsTars() ? std::nullopt : layout_.PlaceOf(path);
     const bool known =
-        place && place->frame < contents_.frames && (place->kind != FrameKind::kTruth || contents_.truth) &&
-        (place->kind != FrameKind::kClean || place->frame == 0 || !one_clean_.contains(place->clip));
+        place && place->frame < contents_.FilesOf(place->kind, one_clean_.contains(place->clip));
     return known ? OwnerOf(place->clip) : Owner::kNobody;
   }
 
@@ -120,9 +119,8 @@ class Walk {
         empty_.erase(folder.string());
     };
     for (const int64_t clip : contents_.set.clips())
-      for (const FrameKind kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth})
-        if (!layout_.IsTars() && (kind != FrameKind::kTruth || contents_.truth))
-          keep(layout_.Path(kind, clip, 0));
+      for (const FrameKind kind : kFrameKinds)
+        if (!layout_.IsTars() && contents_.FilesOf(kind, false) > 0) keep(layout_.Path(kind, clip, 0));
     if (layout_.IsTars()) keep(layout_.TarPath(0));
     for (const std::string& path : empty_)
       if (!empty_.contains(fs::path(path).parent_path().string())) Add(path, "surplus: an empty folder");

@@ -46,9 +46,15 @@ struct Problem {
 struct Contents {
   const DatasetReader& set;
   Layout layout;
-  int64_t clips;   // 0 .. clips - 1
-  int64_t frames;  // that are kept of each
-  bool truth;
+  int64_t clips;              // 0 .. clips - 1
+  int64_t frames;             // that are kept of each
+  std::set<FrameKind> truth;  // TruthKinds
+
+  // How many files of a kind each clip must have.
+  int64_t FilesOf(FrameKind kind, bool one_clean) const {
+    const bool has = kind == FrameKind::kTurb || kind == FrameKind::kClean || truth.contains(kind);
+    return has ? FilesOfKind(kind, frames, one_clean) : 0;
+  }
 };
 
 struct UnitFindings {

@@ -139,9 +139,10 @@ class UnitCheck {
     }
     if (PixelHashOfSamples(samples) != file.pixels)
       return Add(ProblemKind::kDamaged, name, "damaged: its pixels are not those of the manifest");
-    const bool truth = KindOfPath(name) == FrameKind::kTruth;  // has channels of its own
+    const auto kind = KindOfPath(name);  // what is no frame has channels of its own
+    const bool frame = kind == FrameKind::kTurb || kind == FrameKind::kClean;
     const std::vector<int64_t> shape = {samples.cols, samples.rows,
-                                        truth ? line.shape.at(2) : samples.channels()};
+                                        frame ? samples.channels() : line.shape.at(2)};
     if (line.shape != shape)
       Add(ProblemKind::kManifest, name, "its size or channels are not those of its clip's line");
   }

@@ -137,5 +137,24 @@ TEST(Draw, ExtremeDistributionsStayInRange) {
   }
 }
 
+// "as": the same place among as many choices, in every clip; without it they are independent.
+TEST(ConfigDraw, OneLabelIsDrawnAlike) {
+  const ConfigFile file = ConfigFile::Parse(R"({"source": {"drawn": "chart"},
+    "tilt": {"strength_px": {"choice": [2, 4, 8], "as": "air"}},
+    "blur": {"max_sigma_px": {"choice": [1.5, 3, 6], "as": "air"}, "octaves": {"choice": [1, 2, 4]}}})");
+  std::set<std::pair<double, int>> free;
+  for (uint64_t clip = 0; clip < 100; ++clip) {
+    const Config config = file.Draw(clip, nullptr);
+    EXPECT_EQ(config.tilt.strength_px / 2, config.blur.max_sigma_px / 1.5);
+    free.insert({config.tilt.strength_px, config.blur.octaves});
+  }
+  EXPECT_EQ(free.size(), 9u);
+  EXPECT_EQ(file.resolved().at("tilt").at("strength_px").at("as"), "air");
+  EXPECT_THROW(
+      ConfigFile::Parse(
+          R"({"source": {"drawn": "chart"}, "tilt": {"strength_px": {"uniform": [1, 2], "as": 3}}})"),
+      ConfigError);
+}
+
 }  // namespace
 }  // namespace shimmer::app

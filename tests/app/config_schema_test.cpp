@@ -67,7 +67,7 @@ TEST(ConfigSchema, TellsGoodConfigsFromBad) {
       WithSource(R"("output": {"bits": 12})"),
       WithSource(R"("output": {"name": ""})"),
       WithSource(R"("output": {"truth": ["tilt", "tilt"]})"),
-      WithSource(R"("output": {"truth": ["flow"]})")};
+      WithSource(R"("output": {"truth": ["depth"]})")};
   for (const std::string& text : good) EXPECT_EQ(ErrorOf(text), "no error");
   for (const std::string& text : bad) EXPECT_NE(ErrorOf(text), "no error") << text;
 

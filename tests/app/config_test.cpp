@@ -28,7 +28,8 @@ TEST(Config, DefaultsAreThoseOfTheStructs) {
   EXPECT_EQ(resolved["tilt"]["octaves"], defaults.tilt.octaves);
   EXPECT_EQ(resolved["tilt"]["interpolation"], "bicubic");
   EXPECT_EQ(resolved["size"], (Json{256, 256}));
-  EXPECT_EQ(resolved["camera"], Json::object());
+  EXPECT_EQ(resolved["camera"]["shake"], "none");
+  EXPECT_EQ(resolved["camera"]["shifts"], Json::array());
   EXPECT_EQ(resolved["objects"], Json::array());
   EXPECT_EQ(resolved["output"]["truth"], Json::array());
 }
@@ -126,18 +127,65 @@ TEST(Config, ListsTakeASingleText) {
               StartsWith("/source/images/1: is \"\", must be"));
   EXPECT_THAT(ErrorOf(R"({"source": {"images": ["a", 3]}})"), StartsWith("/source/images/1: is 3, must be"));
   EXPECT_THAT(ErrorOf(R"({"source": {"images": "a\u0000b"}})"), HasSubstr("without NUL"));
-  EXPECT_THAT(ErrorOf(WithSource(R"("output": {"truth": ["tilt", "flow"]})")),
-              StartsWith("/output/truth/1: is \"flow\", must be one of \"tilt\", \"sigma\""));
+  EXPECT_THAT(ErrorOf(WithSource(R"("output": {"truth": ["tilt", "depth"]})")),
+              StartsWith("/output/truth/1: is \"depth\", must be one of \"tilt\", \"sigma\""));
   EXPECT_THAT(ErrorOf(WithSource(R"("output": {"truth": ["tilt", "tilt"]})")),
               StartsWith("/output/truth/1: "));
 }
 
-TEST(Config, ReservedSectionsAreEmpty) {
-  EXPECT_EQ(ErrorOf(WithSource(R"("camera": {}, "objects": [], "sensor": {})")), "no error");
-  EXPECT_EQ(ErrorOf(WithSource(R"("camera": {"shake_px": 1})")),
-            "/camera: is {\"shake_px\":1}, must be empty in this version: {}");
-  EXPECT_EQ(ErrorOf(WithSource(R"("objects": [1])")), "/objects: is [1], must be empty in this version: []");
-  EXPECT_EQ(ErrorOf(WithSource(R"("sensor": [])")), "/sensor: is [], must be empty in this version: {}");
+TEST(Config, AListHasAnElementForEach) {
+  const ConfigFile file =
+      Parsed(WithSource(R"("objects": [{"drawn": "box", "motion": {"speed_px": {"uniform": [1, 3]}}},
+                                                         {"images": "cars", "distance": 0.5}])"));
+  ASSERT_EQ(file.fixed().objects.size(), 2u);
+  EXPECT_EQ(file.fixed().objects[0].drawn, "box");
+  EXPECT_EQ(file.fixed().objects[1].images, std::vector<std::string>{"cars"});
+  EXPECT_EQ(file.fixed().objects[1].distance, 0.5);
+  EXPECT_EQ(file.resolved()["objects"][1]["motion"]["path"], "line");
+  EXPECT_EQ(ConfigFile::Parse(file.resolved().dump()).resolved(), file.resolved());
+  Json drawn;
+  const Config clip = file.Draw(3, &drawn);
+  EXPECT_EQ(drawn.at("objects.0.motion.speed_px"), clip.objects[0].motion.speed_px);
+  EXPECT_NE(clip.objects[0].motion.speed_px, file.Draw(4, nullptr).objects[0].motion.speed_px);
+  EXPECT_EQ(clip.objects[1].motion.speed_px, 2);
+}
+
+TEST(Config, OfAListEachElementIsChecked) {
+  EXPECT_EQ(ErrorOf(WithSource(R"("objects": [])")), "no error");
+  EXPECT_THAT(ErrorOf(WithSource(R"("objects": {})")),
+              StartsWith("/objects: is {}, must be a list of at most 64"));
+  EXPECT_THAT(ErrorOf(WithSource(R"("objects": [{"drawn": "box"}, 1])")), StartsWith("/objects/1: "));
+  EXPECT_THAT(ErrorOf(WithSource(R"("objects": [{"drawn": "box", "motion": {"sped_px": 1}}])")),
+              StartsWith("/objects/0/motion/sped_px: unknown key 'sped_px'; did you mean 'speed_px'?"));
+  EXPECT_THAT(ErrorOf(WithSource(R"("objects": [{"drawn": "box", "height_px": 0}])")),
+              StartsWith("/objects/0/height_px: is 0, must be in [1, 8192] px"));
+  EXPECT_THAT(ErrorOf(WithSource(R"("objects": [{"drawn": "box", "images": "a"}])")),
+              StartsWith("/objects/0: has 'drawn' and 'images', must have exactly one"));
+  EXPECT_THAT(ErrorOf(WithSource(R"("objects": [{}])")), StartsWith("/objects/0: has none of"));
+}
+
+TEST(Config, AListIsSetByItsNumber) {
+  const std::string text = WithSource(R"("objects": [{"drawn": "box"}, {"drawn": "disc"}])");
+  EXPECT_EQ(Parsed(text, {"objects.1.height_px=7"}).fixed().objects[1].height_px, 7);
+  EXPECT_EQ(Parsed(text, {"objects.1.motion.path=arc"}).fixed().objects[1].motion.path, sim::PathKind::kArc);
+  EXPECT_EQ(Parsed(text, {R"(objects=[{"drawn": "walker"}])"}).fixed().objects.size(), 1u);
+  EXPECT_THROW(Parsed(text, {"objects.height_px=7"}), ConfigError);
+  EXPECT_THROW(Parsed(text, {"objects.1=7"}), ConfigError);
+  EXPECT_THROW(Parsed(text, {"objects.9.height_px=7"}), ConfigError);
+}
+
+TEST(Config, PointsArePairsInTheirRange) {
+  const auto shifts =
+      Parsed(WithSource(R"("frames": 2, "camera": {"shake": "list", "shifts": [[0, 0], [1.5, -2]]})"))
+          .fixed()
+          .camera.shifts;
+  EXPECT_EQ(shifts, (std::vector<cv::Point2d>{{0, 0}, {1.5, -2}}));
+  EXPECT_THAT(ErrorOf(WithSource(R"("camera": {"shifts": [[0, 0], [1]]})")),
+              StartsWith("/camera/shifts/1: is [1], must be [x, y]"));
+  EXPECT_THAT(ErrorOf(WithSource(R"("camera": {"shifts": [[0, 900]]})")),
+              StartsWith("/camera/shifts/0/1: is 900, must be in"));
+  EXPECT_THAT(ErrorOf(WithSource(R"("camera": {"shifts": 3})")),
+              StartsWith("/camera/shifts: is 3, must be a list of [x, y]"));
 }
 
 }  // namespace

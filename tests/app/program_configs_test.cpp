@@ -47,7 +47,11 @@ void ExpectFramesAsConfig(const dataset::DatasetReader& reader, const fs::path& 
       EXPECT_EQ(turb.pixels.size(), config.size);
       EXPECT_EQ(clean.pixels.size(), config.size);
       EXPECT_EQ(turb.pixels.type(), clean.pixels.type());
-      EXPECT_EQ(reader.TruthTilt(clip, frame).has_value(), !config.output.truth.empty());
+      const auto has = [&](const char* kind) { return std::ranges::count(config.output.truth, kind) > 0; };
+      EXPECT_EQ(reader.TruthTilt(clip, frame).has_value(), has("tilt"));
+      EXPECT_EQ(reader.TruthMask(clip, frame).has_value(), has("mask"));
+      EXPECT_EQ(reader.TruthFlow(clip, frame).has_value(), has("flow") && frame + 1 < config.frames);
+      EXPECT_EQ(reader.TruthShake(clip).has_value(), has("shake"));
       if (const auto sigma = reader.TruthSigma(clip, frame)) {
         EXPECT_EQ(sigma->size(), config.size);
       }

@@ -103,7 +103,7 @@ TEST(Program, ListsEveryKey) {
   auto keys = Leaves(dataset::DatasetReader(folder / "set").description().at("config"));
   keys.insert(keys.end(), {"source.images", "source.video", "source.sequence"});
   EXPECT_GT(keys.size(), 35u);
-  for (const std::string& key : keys) EXPECT_THAT(ran.out, testing::ContainsRegex("(^|\n) *" + key + "[* ]"));
+  for (const std::string& key : keys) EXPECT_THAT(ran.out, testing::ContainsRegex("(^|\n) *" + key + "[* :]"));
 }
 
 TEST(Program, SaysThatItsOutputIsFull) {

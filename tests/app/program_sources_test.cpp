@@ -80,6 +80,30 @@ TEST(Sources, GreyStaysGreyAndAlphaIsDropped) {
   }
 }
 
+TEST(Sources, OfAListAreRecordedFileByFile) {
+  const TempFolder folder;
+  for (const char* name : {"conf/in/a.png", "conf/in/b.png", "conf/in/c.png"})
+    WritePng(folder, name, dataset::RandomImage({40, 30}, 3, 1));
+  folder.Put("conf/lists/some.txt", "# two of three\n../in/c.png\n../in/a.png\n");
+  folder.Put("conf/c.json", SmallConfig({{"source", {{"images", "lists/some.txt"}}}}));
+  ExpectDone(Generate(folder, "conf/c.json", "set"));
+  const Json description = Json::parse(ReadText(folder / "set/dataset.json"));
+  EXPECT_EQ(description.at("config").at("source").at("images"), Json({"lists/some.txt"}));
+  ASSERT_EQ(description.at("sources").size(), 2u);
+  EXPECT_EQ(description.at("sources")[0].at("path"), "in/a.png");
+  EXPECT_EQ(description.at("sources")[1].at("path"), "in/c.png");
+  ExpectDone(Generate(folder, "conf/c.json", "set"));
+  // Another list is another data set, though the config is the same.
+  folder.Put("conf/lists/some.txt", "../in/b.png");
+  ExpectOneLine(Generate(folder, "conf/c.json", "set"), 2,
+                {"set: holds a data set made from something else"});
+  folder.Put("conf/lists/some.txt", "../in/a.png\n\n../in/d.png");
+  ExpectOneLine(
+      Generate(folder, "conf/c.json", "new"), 2,
+      {"conf/c.json:/source/images: conf/lists/some.txt:3: '../in/d.png': nothing found; looked in ",
+       "; a # before a line skips it"});
+}
+
 TEST(Sources, DrawnScenesNeedNoData) {
   const TempFolder folder;
   std::set<std::string> frames;

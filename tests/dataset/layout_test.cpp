@@ -13,6 +13,9 @@ TEST(Layout, Sequence) {
   EXPECT_EQ(layout.Path(FrameKind::kTurb, 123, 0), "clips/000123/turb/0000.png");
   EXPECT_EQ(layout.Path(FrameKind::kClean, 0, 15), "clips/000000/clean/0015.png");
   EXPECT_EQ(layout.Path(FrameKind::kTruth, 123, 0), "clips/000123/truth/0000.exr");
+  EXPECT_EQ(layout.Path(FrameKind::kMask, 123, 7), "clips/000123/mask/0007.png");
+  EXPECT_EQ(layout.Path(FrameKind::kFlow, 123, 7), "clips/000123/flow/0007.exr");
+  EXPECT_EQ(layout.Path(FrameKind::kShake, 123, 0), "clips/000123/shake.json");
   EXPECT_EQ(layout.Path(FrameKind::kTurb, 999, 12345), "clips/000999/turb/12345.png");
   // At most a thousand clips a folder.
   EXPECT_EQ(layout.Path(FrameKind::kTurb, 1000, 0), "clips.001/001000/turb/0000.png");
@@ -51,13 +54,15 @@ TEST(Layout, BasicsrHasPartsOfAThousandClips) {
   EXPECT_EQ(layout.Path(FrameKind::kTurb, 1000, 0), "part001/lq/000/00000000.png");
   EXPECT_EQ(layout.Path(FrameKind::kTruth, 98765, 1), "part098/truth/765/00000001.exr");
   EXPECT_EQ(layout.ClipFolders(1002),
-            (std::vector<std::string>{"part001/lq/002", "part001/gt/002", "part001/truth/002"}));
+            (std::vector<std::string>{"part001/lq/002", "part001/gt/002", "part001/truth/002",
+                                      "part001/mask/002", "part001/flow/002", "part001/shake/002"}));
 }
 
 TEST(Layout, WebdatasetPutsNeighboursInOneTar) {
   const Layout layout{.kind = LayoutKind::kWebdataset, .clips_per_tar = 10};
   EXPECT_EQ(layout.Path(FrameKind::kTurb, 129, 3), "shards/000012.tar/000129.turb.0003.png");
   EXPECT_EQ(layout.Path(FrameKind::kTruth, 130, 0), "shards/000013.tar/000130.truth.0000.exr");
+  EXPECT_EQ(layout.Path(FrameKind::kShake, 130, 0), "shards/000013.tar/000130.shake.json");
   EXPECT_EQ(layout.UnitOf(129), 12);
   EXPECT_THROW((Layout{.kind = LayoutKind::kWebdataset, .clips_per_tar = 0}.Validate()),
                std::invalid_argument);
@@ -67,12 +72,12 @@ TEST(Layout, AKindIsKnownByItsPath) {
   for (const LayoutKind kind : {LayoutKind::kSequence, LayoutKind::kPairs, LayoutKind::kRestormer,
                                 LayoutKind::kBasicsr, LayoutKind::kWebdataset})
     for (const char* name : {"set", "gt", "turb"})
-      for (const FrameKind frame_kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth}) {
+      for (const FrameKind frame_kind : kFrameKinds) {
         const Layout layout{.kind = kind, .name = name};
         EXPECT_EQ(KindOfPath(layout.Path(frame_kind, 1234, 0)), frame_kind);
       }
-  for (const char* path : {"", "/", "/dataset.json", "dataset.json", "gt", "clips/000000/mask/0000.png",
-                           "shards/000000.tar/000001.json"})
+  for (const char* path : {"", "/", "/dataset.json", "dataset.json", "gt", "clips/000000/masks/0000.png",
+                           "shake.json", "shards/000000.tar/000001.json"})
     EXPECT_FALSE(KindOfPath(path)) << path;
 }
 
@@ -88,12 +93,12 @@ TEST(Layout, APathLeadsBackToItsClip) {
                           .clips_per_tar = 7};
       for (const int64_t clip : {0, 7, 999, 1000, 98765, 12345678})
         for (const int64_t frame : {0, 2})
-          for (const FrameKind frame_kind : {FrameKind::kTurb, FrameKind::kClean, FrameKind::kTruth}) {
+          for (const FrameKind frame_kind : kFrameKinds) {
             const auto place = layout.PlaceOf(layout.Path(frame_kind, clip, frame));
             ASSERT_TRUE(place) << layout.Path(frame_kind, clip, frame);
             EXPECT_EQ(place->kind, frame_kind);
             EXPECT_EQ(place->clip, clip);
-            EXPECT_EQ(place->frame, frame);
+            EXPECT_EQ(place->frame, frame_kind == FrameKind::kShake ? 0 : frame);
           }
       const std::string path = layout.Path(FrameKind::kTurb, 1000, 1);
       for (const std::string& other : {"x" + path, path + "x", "sub/" + path, path.substr(1), "0" + path,

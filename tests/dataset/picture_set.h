@@ -67,7 +67,11 @@ class PictureSet {
       problems.push_back({ProblemKind::kManifest, "line", what});
     });
     const Contents contents{
-        .set = set, .layout = layout_, .clips = kPictureClips, .frames = kPictureFrames, .truth = true};
+        .set = set,
+        .layout = layout_,
+        .clips = kPictureClips,
+        .frames = kPictureFrames,
+        .truth = {FrameKind::kTruth, FrameKind::kMask, FrameKind::kFlow, FrameKind::kShake}};
     std::set<int64_t> units, one_clean;
     for (const int64_t clip : set.clips()) units.insert(layout_.UnitOf(clip));
     const auto add = [&](const std::vector<Problem>& more) {
@@ -99,7 +103,7 @@ class PictureSet {
 
  private:
   void WriteClip(DatasetWriter& writer, int64_t clip, Encoding encoding) const {
-    static const std::vector<std::string> kTruth = {"dx", "dy", "sigma"};
+    static const std::vector<std::string> kTruth = {"dx", "dy", "sigma"}, kFlow = {"u", "v"};
     const bool still = clip % 2 == 0;
     const int channels = clip == 1 ? 1 : 3;
     StagedClip staged = writer.Stage(clip);
@@ -116,7 +120,14 @@ class PictureSet {
                     PixelHash(clean, encoding)});
       staged.Add({layout_.Path(FrameKind::kTruth, clip, t), EncodeExr(truth, 32, kTruth),
                   PixelHash(truth, {FileFormat::kExr, 32})});
+      const cv::Mat mask = RandomImage({7, 5}, 1, seed + 9000), flow = RandomImage({7, 5}, 2, seed, -8, 8);
+      staged.Add({layout_.Path(FrameKind::kMask, clip, t), EncodePng(mask, 8), PixelHash(mask, {})});
+      if (t + 1 < kPictureFrames)
+        staged.Add({layout_.Path(FrameKind::kFlow, clip, t), EncodeExr(flow, 32, kFlow),
+                    PixelHash(flow, {FileFormat::kExr, 32})});
     }
+    const std::string shake = R"({"shifts_px": [[0, 0], [1, 2]]})" + std::to_string(clip);
+    staged.Add({layout_.Path(FrameKind::kShake, clip, 0), {shake.begin(), shake.end()}, ""});
     writer.Commit(std::move(staged), {{"size", {7, 5}}, {"channels", channels}, {"frames", kPictureFrames}});
   }
 

@@ -39,7 +39,7 @@ class Sources : public ::testing::Test {
 
 TEST_F(Sources, AFile) {
   EXPECT_EQ(Find({"photos/a.png"}), Patterns{"photos/a.png"});
-  EXPECT_EQ(Find({"photos/notes.txt"}), Patterns{"photos/notes.txt"});  // asked for by name
+  EXPECT_EQ(Find({"clips/v.mp4"}), Patterns{"clips/v.mp4"});  // asked for by name
   EXPECT_EQ(Find({"photos/odd[1].png"}), Patterns{"photos/odd[1].png"});
   EXPECT_EQ(Find({(folder_ / "photos/a.png").string()}), Patterns{"photos/a.png"});
 }
@@ -90,6 +90,75 @@ TEST_F(Sources, NothingFoundNamesThePatternAndThePlaces) {
     EXPECT_TRUE(Contains(error, "'" + pattern + "'")) << error;
     EXPECT_TRUE(Contains(error, folder_.path().string() + " and " + (folder_ / "clips").string())) << error;
   }
+}
+
+TEST_F(Sources, AListHasOnePatternALine) {
+  folder_.Put("a.txt", "# two of them\n\n  \nphotos/f2.png\nphotos/f1.png");
+  folder_.Put("b.txt", "photos/sub\nphotos/[a-b].*\nphotos/sub/c.tif\n" + (folder_ / "clips/w.jpg").string());
+  folder_.Put("windows.TXT", "\xEF\xBB\xBF\tphotos/f1.png \r\n\r\n#\r\nphotos/f2.png\r\n");
+  folder_.Put("clips.txt", "clips");
+  folder_.Put("photos/odd #1.png", "x");
+  folder_.Put("hash.txt", "photos/odd #1.png");
+  const Patterns two = {"photos/f1.png", "photos/f2.png"};
+  EXPECT_EQ(Find({"a.txt"}), two);
+  EXPECT_EQ(Find({"windows.TXT"}), two);
+  EXPECT_EQ(Find({"b.txt"}), (Patterns{"clips/w.jpg", "photos/a.png", "photos/b.JPG", "photos/sub/c.tif",
+                                       "photos/sub/deep/d.exr"}));
+  EXPECT_EQ(Find({"photos/a.png", "a.txt", "a.txt", "photos/f1.png"}),
+            (Patterns{"photos/a.png", "photos/f1.png", "photos/f2.png"}));
+  EXPECT_EQ(Find({(folder_ / "clips.txt").string()}, FileKind::kVideo),
+            (Patterns{"clips/v.mp4", "clips/w.avi"}));
+  EXPECT_EQ(Find({"hash.txt"}), Patterns{"photos/odd #1.png"});
+}
+
+TEST_F(Sources, AListsPatternsCountFromItsFolderFirst) {
+  folder_.Put("f1.png", "x");
+  folder_.Put("photos/list.txt", "f1.png\nclips/w.jpg");
+  EXPECT_EQ(Find({"photos/list.txt"}), (Patterns{"clips/w.jpg", "photos/f1.png"}));
+  // The list itself is looked up as any pattern is.
+  const Patterns pattern = {"list.txt"};
+  const Paths bases = {folder_ / "empty", folder_ / "photos", folder_.path()};
+  EXPECT_EQ(Relative(FindFiles(pattern, bases, FileKind::kPicture)),
+            (Patterns{"clips/w.jpg", "photos/f1.png"}));
+}
+
+TEST_F(Sources, AListOfSequences) {
+  for (const std::string name : {"run/in7.png", "run/in8.png", "padded/in00.png"}) folder_.Put(name, "x");
+  folder_.Put("runs/list.txt", "padded\r\n../run/in%d.png\r\n");
+  const Patterns patterns = {"runs/list.txt"};
+  EXPECT_EQ(Relative(FindSequences(patterns, Paths{folder_.path()})), (Patterns{"padded", "run/in%d.png"}));
+}
+
+TEST_F(Sources, WhatIsWrongWithAListIsNamedByItsLine) {
+  folder_.Put("sub/nothing.txt", "# of these\nphotos/a.png\n\nno.png\n");
+  folder_.Put("sub/nested.txt", "photos/a.png\nnothing.txt\n");
+  folder_.Put("sub/empty.txt", "");
+  folder_.Put("sub/comments.txt", "# one\n\n  \n# two\n");
+  folder_.Put("sub/utf16.txt", std::string("p\0h\0", 4));
+  fs::create_directory(folder_ / "sub/folder.txt");
+  const Paths bases = {folder_.path(), folder_ / "clips"};
+  const std::string places = folder_.path().string() + " and " + (folder_ / "clips").string();
+  const auto expect = [&](const std::string& list, const std::string& message) {
+    const Patterns patterns = {"photos", list};
+    EXPECT_EQ(ErrorOf<std::runtime_error>([&] { FindFiles(patterns, bases, FileKind::kPicture); }), message);
+    EXPECT_EQ(ErrorOf<std::runtime_error>([&] { FindSequences(patterns, bases); }).empty(), false);
+  };
+  const std::string sub = (folder_ / "sub/").string();
+  expect("sub/nothing.txt", sub + "nothing.txt:4: 'no.png': nothing found; looked in " +
+                                (folder_ / "sub").string() + " and " + places +
+                                "; a # before a line skips it");
+  expect("sub/nested.txt",
+         sub + "nested.txt:2: 'nothing.txt': lists don't nest, must be a file, a folder or a pattern");
+  for (const std::string name : {"empty.txt", "comments.txt"})
+    expect("sub/" + name,
+           sub + name + ": no pattern in it, must have one a line (a line that starts with # is none)");
+  expect("sub/utf16.txt", sub + "utf16.txt: not a text, must be one in UTF-8 with one pattern a line");
+  for (const std::string name : {"gone.txt", "*.txt", "folder.txt"})
+    expect("sub/" + name,
+           "'sub/" + name +
+               "': no such list, a name that ends in .txt must be that of a text file with one "
+               "pattern a line; looked in " +
+               places);
 }
 
 TEST_F(Sources, LinksAreFollowedAndLoopsEnd) {

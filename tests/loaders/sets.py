@@ -15,7 +15,8 @@ import unittest
 SKIPPED = 77  # as tests/CMakeLists.txt knows it
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LAYOUTS = ("sequence", "pairs", "restormer", "basicsr", "webdataset")
-KINDS = {"turb": "turb", "lq": "turb", "clean": "clean", "noturb": "clean", "gt": "clean", "truth": "truth"}
+KINDS = {"turb": "turb", "lq": "turb", "clean": "clean", "noturb": "clean", "gt": "clean", "truth": "truth",
+         "mask": "mask", "flow": "flow", "shake": "shake", "shake.json": "shake"}
 
 program = None  # the path of shimmer, from the command line
 

@@ -4,6 +4,7 @@
   shimmer_dataset_test.py SHIMMER
 """
 
+import json
 import pickle
 import subprocess
 import sys
@@ -181,6 +182,110 @@ class Items(sets.SetsTest):
         folder = self.make("set", "sequence")
         dataset = ShimmerDataset(folder, truth=["dx"], transform=lambda turb, clean, truth: tuple(truth.shape))
         self.assertEqual(dataset[0], (1, 40, 48))
+
+
+class Scenes(sets.SetsTest):
+    """Truth of scenes that move, against the files, which this reads by their names and offsets alone."""
+
+    OBJECTS = [{"drawn": "disc", "height_px": 21, "motion": {"start_x": 0.4, "speed_px": 3.5, "direction_deg": 20}}]
+
+    def make_scene(self, layout, **keys):
+        single = layout in ("pairs", "restormer")
+        truth = ["tilt", "sigma", "mask"] + ([] if single else ["flow", "shake"])
+        return self.make(layout, layout, clips=2, objects=self.OBJECTS, camera={"shake": "walk", "bound_px": 9},
+                         output_truth=truth, output_frames_per_clip=2 if single else 1, **keys)
+
+    def read(self, folder, file):
+        """Bytes of a file, and what OpenImageIO reads of it if it is a picture."""
+        import OpenImageIO as oiio
+        with open(folder / file["path"], "rb") as opened:
+            opened.seek(file.get("offset", 0))
+            data = opened.read(file["bytes"])
+        name = file.get("member", file["path"])
+        if name.endswith(".json"):
+            return json.loads(data)
+        copy = self.folder / ("copy" + name[-4:])
+        copy.write_bytes(data)
+        picture = oiio.ImageInput.open(str(copy))
+        if name.endswith(".exr"):
+            self.assertEqual(set(picture.spec().channelnames) - {"dx", "dy", "sigma"}, {"u", "v"})
+        return picture.read_image(picture.spec().format)
+
+    def check_mask(self, folder, line, masks, planes):
+        import numpy
+        files = sets.files_of(line, "mask")
+        self.assertEqual(len(files), len(masks))
+        self.assertEqual(masks.dtype, numpy.float32)
+        for file, mask, plane in zip(files, masks, planes):
+            saved = self.read(folder, file)
+            self.assertEqual((str(saved.dtype), saved.shape), ("uint8", (40, 48, 1)))
+            self.assertTrue((numpy.rint(255 * mask) == saved[:, :, 0]).all())
+            self.assertTrue(0 < (mask == 1).sum() < mask.size / 2 < (mask == 0).sum())
+            self.assertTrue((plane == mask).all())
+
+    def check_flow(self, folder, line, flows, planes):
+        import numpy
+        files = sets.files_of(line, "flow")
+        self.assertEqual([flow is None for flow in flows], [False] * len(files) + [True])
+        for file, flow, plane in zip(files, flows, planes):
+            self.assertTrue((flow == self.read(folder, file)).all())
+            self.assertTrue((plane == flow.transpose(2, 0, 1)).all())
+            self.assertAlmostEqual(float(numpy.hypot(*flow[flow.any(axis=2)].T).mean()), 3.5, places=4)
+        self.assertTrue(numpy.isnan(planes[-1]).all())
+
+    def test_every_layout(self):
+        from shimmer_dataset import ShimmerDataset
+        for layout in sets.LAYOUTS:
+            with self.subTest(layout=layout):
+                folder = self.make_scene(layout)
+                single = layout in ("pairs", "restormer")
+                channels = ("dx", "mask") if single else ("v", "mask", "dx", "u")
+                dataset = ShimmerDataset(folder, frames="all", truth=channels)
+                for index in range(len(dataset)):
+                    line, planes = sets.lines_of(folder)[index], dataset[index][2].numpy()
+                    self.check_mask(folder, line, dataset.mask(index), planes[:, 1])
+                    if single:
+                        self.assertIsNone(dataset.flow(index))
+                        self.assertIsNone(dataset.shake(index))
+                        continue
+                    self.check_flow(folder, line, dataset.flow(index), planes[:, [3, 0]])
+                    file, = sets.files_of(line, "shake")
+                    self.assertEqual(dataset.shake(index).tolist(), self.read(folder, file)["shifts_px"])
+                    self.assertEqual(dataset.shake(index)[0].tolist(), [0, 0])
+
+    def test_single_frames(self):
+        import numpy
+        from shimmer_dataset import ShimmerDataset
+        folder = self.make_scene("sequence")
+        whole, single = ShimmerDataset(folder, frames="all"), ShimmerDataset(folder, truth=("u", "mask"))
+        for index in range(len(single)):
+            clip, frame = divmod(index, 3)
+            self.assertTrue((single.mask(index) == whole.mask(clip)[frame]).all())
+            self.assertEqual(single.shake(index).tolist(), whole.shake(clip)[frame].tolist())
+            flow, there = single.flow(index), whole.flow(clip)[frame]
+            self.assertTrue(flow is there is None if frame == 2 else (flow == there).all())
+            self.assertEqual(bool(numpy.isnan(single[index][2][0]).all()), frame == 2)
+
+    def test_flipped_items_flow_the_other_way(self):
+        import torch
+        from shimmer_dataset import ShimmerDataset
+        folder = self.make_scene("sequence")
+        plain, flipped = (ShimmerDataset(folder, frames=2, step=2, truth=("mask", "u", "v"), flip=flip)
+                          for flip in (False, True))
+        seen = set()
+        for epoch in range(4):
+            flipped.set_epoch(epoch)
+            for (_, _, ours), (_, _, theirs) in zip(flipped, plain):
+                turned = theirs.flip(-1) * torch.tensor([1, -1, 1])[:, None, None]
+                seen.add(0 if torch.equal(ours, theirs) else 1 if torch.equal(ours, turned) else 2)
+        self.assertEqual(seen, {0, 1})
+
+    def test_what_was_not_written_is_not_there(self):
+        from shimmer_dataset import ShimmerDataset
+        dataset = ShimmerDataset(self.make("set", "sequence"))
+        self.assertEqual([dataset.mask(0), dataset.flow(0), dataset.shake(0)], [None] * 3)
+        with self.assertRaisesRegex(ValueError, "its truth has no 'u'"):
+            ShimmerDataset(self.folder / "set", truth=("u",))
 
 
 class Workers(sets.SetsTest):

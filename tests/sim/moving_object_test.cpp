@@ -24,7 +24,7 @@ cv::Point2d MiddleOf(const Layer& layer) {
 
 TEST(MovingObject, IsWhereItsPathIsInEachFrame) {
   const MovingObject disc(DrawnLook{Shape::kDisc, kColour}, {.speed_px = 1.75, .direction_deg = 30}, kFrame,
-                          20, 0);
+                          8, 20, 0);
   for (const int64_t k : {0, 1, 7}) {
     const cv::Point2d expected =
         cv::Point2d(99.5, 49.5) + cv::Point2d(std::cos(M_PI / 6), 0.5) * (1.75 * static_cast<double>(k));
@@ -36,8 +36,8 @@ TEST(MovingObject, IsWhereItsPathIsInEachFrame) {
 // it is there.
 TEST(MovingObject, MotionBlurIsTheMeanOverTheShutter) {
   const MotionParams motion{.speed_px = 16};
-  const MovingObject still(DrawnLook{Shape::kDisc, kColour}, motion, kFrame, 20, 0),
-      moving(DrawnLook{Shape::kDisc, kColour}, motion, kFrame, 20, 0.5);
+  const MovingObject still(DrawnLook{Shape::kDisc, kColour}, motion, kFrame, 3, 20, 0),
+      moving(DrawnLook{Shape::kDisc, kColour}, motion, kFrame, 3, 20, 0.5);
   const Layer sharp = still.At(2), blurred = moving.At(2);
   EXPECT_LT(cv::norm(MiddleOf(sharp) - MiddleOf(blurred)), 0.01);
   EXPECT_NEAR(cv::sum(blurred.rgba)[3], cv::sum(sharp.rgba)[3], 0.5);
@@ -55,9 +55,9 @@ TEST(MovingObject, ACutoutIsThatOfItsFrame) {
   const auto of_value = [](float value) {
     return std::make_shared<const Cutout>(cv::Mat(10, 10, CV_32FC4, cv::Scalar(value, value, value, 1)));
   };
-  const MovingObject still(StillLook(of_value(0.5f)), {.speed_px = 3}, kFrame, 10, 0);
+  const MovingObject still(StillLook(of_value(0.5f)), {.speed_px = 3}, kFrame, 5, 10, 0);
   const MovingObject video(VideoLook([&](int64_t k) { return of_value(0.1f * static_cast<float>(k)); }),
-                           {.speed_px = 3}, kFrame, 10, 0);
+                           {.speed_px = 3}, kFrame, 5, 10, 0);
   for (const int64_t k : {1, 4})
     for (const auto& [object, value] :
          {std::pair(&still, 0.5), std::pair(&video, 0.1 * static_cast<double>(k))}) {
@@ -71,10 +71,10 @@ TEST(MovingObject, ACutoutIsThatOfItsFrame) {
 TEST(MovingObject, FlowLeadsToTheSamePlace) {
   const auto blob = std::make_shared<const Cutout>(cv::Mat(20, 30, CV_32FC4, cv::Scalar::all(1)));
   for (const Look& look : {Look(DrawnLook{Shape::kBox, kColour}), Look(StillLook(blob))}) {
-    const MovingObject object(look, {.speed_px = 2.5, .scale_rate = 1.02, .rotation_rate = 3}, kFrame, 30,
+    const MovingObject object(look, {.speed_px = 2.5, .scale_rate = 1.02, .rotation_rate = 3}, kFrame, 5, 30,
                               0.3);
     const cv::Mat flow = object.FlowAt(3, {{0, 0}, kFrame});
-    const Motion motion({.speed_px = 2.5, .scale_rate = 1.02, .rotation_rate = 3}, kFrame);
+    const Motion motion({.speed_px = 2.5, .scale_rate = 1.02, .rotation_rate = 3}, kFrame, 5);
     int known = 0;
     for (int y = 0; y < kFrame.height; ++y)
       for (int x = 0; x < kFrame.width; ++x) {

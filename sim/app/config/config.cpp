@@ -21,6 +21,16 @@ Json Checked(const Key& key, const Json& value) {
   return drawn ? CheckedDistribution(key, value, key.pointer) : CheckedLiteral(key, value, key.pointer);
 }
 
+Json Resolved(const Key& section, const Json& given);
+
+Json ResolvedList(const Key& list, const Json& given) {
+  if (!given.is_array() || given.size() > list.high.get<size_t>())
+    throw ConfigError(list.pointer, "is " + Shown(given) + ", must be " + Wanted(list));
+  Json resolved = Json::array();
+  for (size_t i = 0; i < given.size(); ++i) resolved.push_back(Resolved(ElementOf(list, i), given[i]));
+  return resolved;
+}
+
 // The section with each value checked, and with the default of each that is not given.
 Json Resolved(const Key& section, const Json& given) {
   RequireObject(given, section.pointer);
@@ -34,6 +44,8 @@ Json Resolved(const Key& section, const Json& given) {
     const bool is_given = found != given.end();
     if (key.kind == Kind::kSection)
       resolved[key.name()] = Resolved(key, is_given ? *found : Json::object());
+    else if (key.kind == Kind::kList)
+      resolved[key.name()] = ResolvedList(key, is_given ? *found : Json::array());
     else if (is_given)
       resolved[key.name()] = Checked(key, *found);
     else if (!key.field.alternative)
@@ -46,6 +58,8 @@ Json Resolved(const Key& section, const Json& given) {
 void DrawAll(const Key& section, sim::ClipKey clip, Json& values, Json& drawn) {
   for (const Key& key : section.keys) {
     const auto value = values.find(key.name());
+    if (key.kind == Kind::kList)
+      for (size_t i = 0; i < value->size(); ++i) DrawAll(ElementOf(key, i), clip, (*value)[i], drawn);
     if (value == values.end() || !value->is_object() || key.kind == Kind::kReserved) continue;
     if (key.kind == Kind::kSection)
       DrawAll(key, clip, *value, drawn);
@@ -87,6 +101,12 @@ Config ConfigFile::Draw(uint64_t clip, Json* drawn) const {
   DrawAll(AllKeys(), {fixed_.seed, clip}, values, draws);
   Config config = fixed_;
   Fill(values, config);
+  for (size_t i = 0; i < config.objects.size(); ++i) {
+    ObjectParams& object = config.objects[i];
+    const std::string path = "objects." + std::to_string(i) + ".present";
+    object.present = sim::DrawUnit({fixed_.seed, clip}, path) < object.chance;
+    if (object.chance > 0 && object.chance < 1) draws[path] = object.present;
+  }
   if (drawn) *drawn = std::move(draws);
   return config;
 }

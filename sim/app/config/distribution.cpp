@@ -27,10 +27,11 @@ const DistributionForm& FormOf(const Key& key, const Json& distribution, const s
                                      "', must have one of them");
     form = &candidate;
   }
+  known.push_back(kAs);
   for (const auto& [name, value] : distribution.items()) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw ConfigError(PointerUnder(pointer, name), UnknownKey(name, known));
-    if (form && name != form->name && name != form->companion)
+    if (form && name != form->name && name != form->companion && name != kAs)
       throw ConfigError(PointerUnder(pointer, name),
                         "has no meaning beside '" + std::string(form->name) + "'");
   }
@@ -128,13 +129,26 @@ Json CheckedDistribution(const Key& key, const Json& distribution, const std::st
     throw ConfigError(pointer, "is " + Shown(distribution) + ", but holds for the whole data set: must be " +
                                    Wanted(key) + ", no distribution");
   const std::string form = FormOf(key, distribution, pointer).name;
-  if (form == kChoice) return CheckedChoice(key, distribution, pointer);
-  if (!DrawsNumbers(key))
+  if (form != kChoice && !DrawsNumbers(key))
     throw ConfigError(PointerUnder(pointer, form),
                       "does not fit what is " + Wanted(key) + ": must be \"choice\"");
-  if (form == kNormal) return CheckedNormal(key, distribution, pointer);
-  if (form == kLogUniform) return CheckedLogUniform(key, distribution, pointer);
-  return {{kUniform, CheckedEnds(key, distribution[kUniform], PointerUnder(pointer, kUniform))}};
+  Json checked;
+  if (form == kChoice)
+    checked = CheckedChoice(key, distribution, pointer);
+  else if (form == kNormal)
+    checked = CheckedNormal(key, distribution, pointer);
+  else if (form == kLogUniform)
+    checked = CheckedLogUniform(key, distribution, pointer);
+  else
+    checked = {{kUniform, CheckedEnds(key, distribution[kUniform], PointerUnder(pointer, kUniform))}};
+  if (distribution.contains(kAs)) {
+    const Json& label = distribution[kAs];
+    if (!label.is_string() || label.get_ref<const std::string&>().empty())
+      throw ConfigError(PointerUnder(pointer, kAs),
+                        "is " + Shown(label) + ", must be a text that is not empty");
+    checked[kAs] = label;
+  }
+  return checked;
 }
 
 Support SupportOf(const Json& value) {
@@ -151,29 +165,30 @@ Support SupportOf(const Json& value) {
 }
 
 Json DrawFrom(const Key& key, const Json& distribution, sim::ClipKey clip) {
+  const std::string path = distribution.value(kAs, key.path);
   if (distribution.contains(kChoice)) {
     const auto weights = distribution[kWeights].get<std::vector<double>>();
-    return distribution[kChoice][sim::DrawIndex(clip, key.path, weights)];
+    return distribution[kChoice][sim::DrawIndex(clip, path, weights)];
   }
   const bool whole = key.kind == Kind::kInteger;
   if (distribution.contains(kNormal)) {
     const double mean = distribution[kNormal][0], sd = distribution[kNormal][1];
     const Json &low = distribution[kClip][0], &high = distribution[kClip][1];
-    if (!whole) return sim::DrawNormal(clip, key.path, mean, sd, low, high);
+    if (!whole) return sim::DrawNormal(clip, path, mean, sd, low, high);
     // A whole number stands for all that rounds to it.
     const double number =
-        sim::DrawNormal(clip, key.path, mean, sd, low.get<double>() - 0.5, high.get<double>() + 0.5);
+        sim::DrawNormal(clip, path, mean, sd, low.get<double>() - 0.5, high.get<double>() + 0.5);
     return Whole(number + 0.5, low, high);
   }
   if (distribution.contains(kLogUniform)) {
     const Json &low = distribution[kLogUniform][0], &high = distribution[kLogUniform][1];
-    if (!whole) return sim::DrawLogUniform(clip, key.path, low, high);
+    if (!whole) return sim::DrawLogUniform(clip, path, low, high);
     // A whole number n stands for [n, n + 1), so that both ends are drawn.
-    return Whole(sim::DrawLogUniform(clip, key.path, low.get<double>(), high.get<double>() + 1), low, high);
+    return Whole(sim::DrawLogUniform(clip, path, low.get<double>(), high.get<double>() + 1), low, high);
   }
   const Json &low = distribution[kUniform][0], &high = distribution[kUniform][1];
-  if (!whole) return sim::DrawUniform(clip, key.path, low, high);
-  return sim::DrawInteger(clip, key.path, low, high);
+  if (!whole) return sim::DrawUniform(clip, path, low, high);
+  return sim::DrawInteger(clip, path, low, high);
 }
 
 }  // namespace shimmer::app

@@ -1,8 +1,10 @@
 // A value that is drawn for each clip:
 //   {"uniform": [a, b]}  {"log_uniform": [a, b]}  {"normal": [mean, sd], "clip": [a, b]}
 //   {"choice": [...], "weights": [...]}
-// Keys of whole numbers draw whole numbers, a and b among them. Keys of anything else, and of a closed list
-// of numbers, take "choice" alone.
+// Any of them may have "as": "label" beside it: it is drawn by the label's hash instead of by its own path's,
+// so that keys of one label are drawn alike (the same place among as many choices, the same share of a
+// range). Keys of whole numbers draw whole numbers, a and b among them. Keys of anything else, and of a
+// closed list of numbers, take "choice" alone.
 #pragma once
 
 #include <array>
@@ -19,6 +21,7 @@ inline constexpr const char* kNormal = "normal";
 inline constexpr const char* kClip = "clip";
 inline constexpr const char* kChoice = "choice";
 inline constexpr const char* kWeights = "weights";
+inline constexpr const char* kAs = "as";
 
 struct DistributionForm {
   const char* name;

@@ -7,6 +7,8 @@
 namespace shimmer::app {
 namespace {
 
+using Points = std::vector<cv::Point2d>;
+
 template <class Value>
 constexpr bool kIsEnum = std::is_enum_v<Value>;
 template <class Value>
@@ -21,11 +23,13 @@ Kind KindOf(const Field& field) {
   if constexpr (std::same_as<Value, std::string>) return field.names.empty() ? Kind::kText : Kind::kName;
   if constexpr (std::same_as<Value, std::vector<std::string>>) return Kind::kTexts;
   if constexpr (std::same_as<Value, cv::Size>) return Kind::kSize;
+  if constexpr (std::same_as<Value, Points>) return Kind::kPoints;
 }
 
 // What the ends of a field's range are numbers of: sizes and lengths are whole.
 template <class Value>
-using RangeNumber = std::conditional_t<kIsInteger<Value> || std::same_as<Value, double>, Value, int>;
+using RangeNumber = std::conditional_t<kIsInteger<Value> || std::same_as<Value, double>, Value,
+                                       std::conditional_t<std::same_as<Value, Points>, double, int>>;
 
 // An end of a range; null for infinity. Whole numbers end at the ends of their type at the latest.
 template <class Value>
@@ -45,7 +49,11 @@ Json ToJson(const Value& value, const Field& field) {
     return field.names.at(static_cast<size_t>(value));
   else if constexpr (std::same_as<Value, cv::Size>)
     return Json::array({value.width, value.height});
-  else
+  else if constexpr (std::same_as<Value, Points>) {
+    Json points = Json::array();
+    for (const cv::Point2d& point : value) points.push_back({point.x, point.y});
+    return points;
+  } else
     return value;
 }
 
@@ -56,6 +64,9 @@ void FromJson(const Json& json, const Field& field, Value& value) {
     value = static_cast<Value>(std::find(field.names.begin(), field.names.end(), name) - field.names.begin());
   } else if constexpr (std::same_as<Value, cv::Size>) {
     value = {json.at(0).get<int>(), json.at(1).get<int>()};
+  } else if constexpr (std::same_as<Value, Points>) {
+    value.clear();
+    for (const Json& point : json) value.emplace_back(point.at(0).get<double>(), point.at(1).get<double>());
   } else {
     json.get_to(value);
   }
@@ -81,6 +92,17 @@ class KeyLister {
   void Section(const char* name, const char* help, const Struct& part) {
     KeyLister lister(Add({.name = name, .help = help}, Kind::kSection));
     Struct::Fields(part, lister);
+  }
+
+  // As many as the config lists, at most `most`; each has its defaults.
+  template <class Struct>
+  void List(const char* name, double most, const char* help, const std::vector<Struct>&) {
+    static const Struct element;
+    Key& list = Add({.name = name, .low = 0, .high = most, .help = help, .per_clip = false}, Kind::kList);
+    list.fallback = Json::array();
+    list.low = 0, list.high = static_cast<int>(most);
+    KeyLister lister(list);
+    Struct::Fields(element, lister);
   }
 
   void Reserved(const char* name, const Json& empty, const char* help) {
@@ -113,6 +135,16 @@ class Filler {
   void Section(const char* name, const char*, Struct& part) const {
     const Filler filler(values_.at(name));
     Struct::Fields(part, filler);
+  }
+
+  template <class Struct>
+  void List(const char* name, double, const char*, std::vector<Struct>& list) const {
+    const Json& values = values_.at(name);
+    list.resize(values.size());
+    for (size_t i = 0; i < list.size(); ++i) {
+      const Filler filler(values[i]);
+      Struct::Fields(list[i], filler);
+    }
   }
 
   void Reserved(const char*, const Json&, const char*) const {}
@@ -153,6 +185,27 @@ const Key& KeyAt(const void* member) {
   const Key* key = Find(AllKeys(), [&](const Key& k) { return k.member == member; });
   if (!key) throw std::invalid_argument("KeyAt: not a member of DefaultConfig() that Fields lists");
   return *key;
+}
+
+namespace {
+
+void MoveKeys(std::vector<Key>& keys, const Key& from, const Key& to) {
+  for (Key& key : keys) {
+    key.path = to.path + key.path.substr(from.path.size());
+    key.pointer = to.pointer + key.pointer.substr(from.pointer.size());
+    MoveKeys(key.keys, from, to);
+  }
+}
+
+}  // namespace
+
+Key ElementOf(const Key& list, size_t index) {
+  Key element = list;
+  element.kind = Kind::kSection;
+  element.path += "." + std::to_string(index);
+  element.pointer += "/" + std::to_string(index);
+  MoveKeys(element.keys, list, element);
+  return element;
 }
 
 std::vector<std::string> KeyNames(const Key& section) {

@@ -12,14 +12,16 @@ namespace shimmer::app {
 
 enum class Kind {
   kSection,   // an object of further keys
+  kList,      // a list of such objects
   kReserved,  // nothing but its fallback, in this version
   kReal,
   kInteger,
-  kFlag,   // true or false
-  kName,   // one of field.names
-  kText,   // any text
-  kTexts,  // a list of texts (of field.names, where there are some)
-  kSize,   // [width, height]
+  kFlag,    // true or false
+  kName,    // one of field.names
+  kText,    // any text
+  kTexts,   // a list of texts (of field.names, where there are some)
+  kSize,    // [width, height]
+  kPoints,  // [[x, y], ...], numbers in the key's range
 };
 
 struct Key {
@@ -31,7 +33,7 @@ struct Key {
   std::string allowed = {};      // field's range in words, with the unit
   Json fallback = {};            // value where the config gives none; of an alternative: none (null)
   const void* member = nullptr;  // of a value: where it is in DefaultConfig()
-  std::vector<Key> keys = {};    // of a section, in the order of its Fields
+  std::vector<Key> keys = {};    // of a section, in the order of its Fields; of a list, those of each element
 
   std::string name() const { return field.name; }
 };
@@ -43,6 +45,9 @@ const Key& AllKeys();
 // Throws std::invalid_argument for anything that is no such member.
 const Key& KeyAt(const void* member);
 const Key& KeyOf(const auto& member) { return KeyAt(&member); }
+
+// Element i of a list, as a section: "objects.2", "/objects/2".
+Key ElementOf(const Key& list, size_t index);
 
 std::vector<std::string> KeyNames(const Key& section);
 

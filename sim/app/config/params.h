@@ -8,90 +8,26 @@
 #include <vector>
 
 #include "sim/app/config/error.h"
+#include "sim/app/config/object_params.h"
+#include "sim/app/config/source_params.h"
+#include "sim/camera.h"
 #include "sim/dataset/layout.h"
-#include "sim/drawn/drawn.h"
 #include "sim/fields.h"
 #include "sim/scene.h"
+#include "sim/sensor.h"
 
 namespace shimmer::app {
 
-using sim::Field;
-
-enum class Crop { kRandom, kCentre };
-enum class Start { kRandom, kFirst };
 enum class Format { kPng, kExr };
 enum class PngWriter { kIsal, kOpenImageIo };
 using dataset::LayoutKind;
-
-// Where clean frames come from: exactly one of images, video, sequence, drawn.
-struct SourceParams {
-  std::vector<std::string> images;    // folders, files or globs of stills
-  std::vector<std::string> video;     // files or globs of videos
-  std::vector<std::string> sequence;  // folders of numbered frames, or printf patterns (frame%04d.png)
-  std::string drawn;                  // a scene of sim/drawn/drawn.h; empty: none
-  double scale = 1;
-  Crop crop = Crop::kRandom;
-  bool flip = false;
-  Start start = Start::kRandom;
-
-  bool FromFiles() const { return !images.empty() || !video.empty() || !sequence.empty(); }
-
-  template <class Self, class Visitor>
-  static void Fields(Self& self, Visitor& visit) {
-    visit(Field{.name = "images",
-                .low = 1,
-                .help = "folder, file or glob of still images, or a list of them",
-                .per_clip = false,
-                .alternative = true},
-          self.images);
-    visit(Field{.name = "video",
-                .low = 1,
-                .help = "video file or glob, or a list of them",
-                .per_clip = false,
-                .alternative = true},
-          self.video);
-    visit(
-        Field{
-            .name = "sequence",
-            .low = 1,
-            .help =
-                "folder of numbered frames, glob of such folders, or a pattern like frame%04d.png; or a list",
-            .per_clip = false,
-            .alternative = true},
-        self.sequence);
-    visit(Field{.name = "drawn",
-                .names = {sim::kDrawnSceneNames.begin(), sim::kDrawnSceneNames.end()},
-                .help = "a scene that needs no data",
-                .alternative = true},
-          self.drawn);
-    visit(Field{.name = "scale",
-                .low = 0.01,
-                .high = 16,
-                .help = "the source is resized by this before it is cropped"},
-          self.scale);
-    visit(Field{.name = "crop",
-                .names = {"random", "centre"},
-                .help = "where the crop lies in the source",
-                .per_clip = false},
-          self.crop);
-    visit(Field{.name = "flip",
-                .help = "mirror left to right: half of the clips, drawn by their hash",
-                .per_clip = false},
-          self.flip);
-    visit(Field{.name = "start",
-                .names = {"random", "first"},
-                .help = "which frame of a video or sequence is frame 0",
-                .per_clip = false},
-          self.start);
-  }
-};
 
 struct OutputParams {
   Format format = Format::kPng;
   int bits = 8;  // png: 8 or 16; exr: 16 (half) or 32 (float)
   PngWriter png_writer = PngWriter::kIsal;
   LayoutKind layout = LayoutKind::kSequence;
-  std::vector<std::string> truth;  // any of "tilt", "sigma"
+  std::vector<std::string> truth;  // any of "tilt", "sigma", "mask", "flow", "shake"
   std::string name = "shimmer";    // pairs, restormer: the folder that training code calls data_name
   double test_fraction = 0.02;     // pairs, restormer: share of the clips that go to NAME/test
   int frames_per_clip = 1;         // pairs, restormer: frames taken of each clip
@@ -123,8 +59,9 @@ struct OutputParams {
                 .per_clip = false},
           self.layout);
     visit(Field{.name = "truth",
-                .names = {"tilt", "sigma"},
-                .help = "per-frame truth to write beside the frames",
+                .names = {"tilt", "sigma", "mask", "flow", "shake"},
+                .help = "what is known of each frame, written beside it: the turbulence's shifts and sigmas; "
+                        "the moving objects' coverage and motion in the steady frame; the camera's shake",
                 .per_clip = false},
           self.truth);
     visit(Field{.name = "name",
@@ -169,6 +106,9 @@ struct Config {
   SourceParams source;
   sim::TiltParams tilt;
   sim::BlurParams blur;
+  sim::CameraParams camera;
+  std::vector<ObjectParams> objects;
+  sim::SensorParams sensor;
   sim::Colour colour = sim::Colour::kStored;
   sim::Accuracy accuracy;
   OutputParams output;
@@ -205,9 +145,10 @@ struct Config {
                   self.source);
     visit.Section("tilt", "shifts of the pixels", self.tilt);
     visit.Section("blur", "spatially varying Gaussian", self.blur);
-    visit.Reserved("camera", Json::object(), "camera shake; has no keys yet");
-    visit.Reserved("objects", Json::array(), "moving objects; none yet");
-    visit.Reserved("sensor", Json::object(), "sensor noise; has no keys yet");
+    visit.Section("camera", "its shake", self.camera);
+    visit.List("objects", 64, "what moves over the scene, from the farthest to the nearest", self.objects);
+    visit.Section("sensor", "noise and compression of the turbulent frames; the clean ones have none",
+                  self.sensor);
     visit(Field{.name = "colour",
                 .names = {"stored", "linear"},
                 .help = "stored: work on stored values as the paper does; linear: decode sRGB, work, encode",

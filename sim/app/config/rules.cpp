@@ -18,6 +18,9 @@ void CheckAlternatives(const Key& section, const Json& values) {
   std::vector<std::string> names, given;
   for (const Key& key : section.keys) {
     if (key.kind == Kind::kSection) CheckAlternatives(key, values.at(key.name()));
+    if (key.kind == Kind::kList)
+      for (size_t i = 0; i < values.at(key.name()).size(); ++i)
+        CheckAlternatives(ElementOf(key, i), values.at(key.name())[i]);
     if (!key.field.alternative) continue;
     names.push_back(key.name());
     if (values.contains(key.name())) given.push_back(key.name());
@@ -91,6 +94,7 @@ void CheckRules(const Json& resolved, const Config& fixed) {
   CheckFrames(fixed);
   CheckBasicsr(fixed);
   CheckOutput(fixed.output);
+  CheckSceneRules(resolved, fixed);
 }
 
 }  // namespace shimmer::app

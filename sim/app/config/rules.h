@@ -9,4 +9,7 @@ namespace shimmer::app {
 // Where a value is drawn, the rule must hold whatever is drawn. Throws ConfigError.
 void CheckRules(const Json& resolved, const Config& fixed);
 
+// Those of scenes that move; part of CheckRules.
+void CheckSceneRules(const Json& resolved, const Config& fixed);
+
 }  // namespace shimmer::app

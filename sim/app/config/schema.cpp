@@ -54,7 +54,10 @@ Schema ReservedSchema(const Key& key) {
 Schema LiteralSchema(const Key& key) {
   switch (key.kind) {
     case Kind::kSection:
+    case Kind::kList:
       break;
+    case Kind::kPoints:
+      return {{"type", "array"}, {"items", ListOf(NumberSchema(key, "number"), 2)}};
     case Kind::kReserved:
       return ReservedSchema(key);
     case Kind::kReal:
@@ -97,6 +100,7 @@ Schema DistributionSchema(const Key& key, const Schema& literal) {
   }
   forms[kChoice] = {{"type", "array"}, {"items", literal}, {"minItems", 1}};
   forms[kWeights] = {{"type", "array"}, {"items", {{"type", "number"}, {"minimum", 0}}}, {"minItems", 1}};
+  forms[kAs] = {{"type", "string"}, {"minLength", 1}};
   return {{"$ref", "#/$defs/distribution"}, {"additionalProperties", false}, {"properties", forms}};
 }
 
@@ -112,7 +116,7 @@ void AddKeys(const Key& section, Schema& schema) {
   Schema required = Schema::array(), alternatives = Schema::array();
   for (const Key& key : section.keys) {
     schema["properties"][key.name()] = KeySchema(key);
-    if (HasAlternatives(key)) required.push_back(key.name());
+    if (key.kind == Kind::kSection && HasAlternatives(key)) required.push_back(key.name());
     if (key.field.alternative) alternatives.push_back({{"required", {key.name()}}});
   }
   schema["additionalProperties"] = false;
@@ -129,6 +133,13 @@ Schema KeySchema(const Key& key) {
     return schema;
   }
   if (!key.field.alternative) schema["default"] = key.fallback;
+  if (key.kind == Kind::kList) {
+    schema["type"] = "array";
+    schema["maxItems"] = key.high;
+    schema["items"]["type"] = "object";
+    AddKeys(key, schema["items"]);
+    return schema;
+  }
   const Schema literal = LiteralSchema(key);
   if (key.field.per_clip)
     schema["oneOf"] = Schema::array({literal, DistributionSchema(key, literal)});

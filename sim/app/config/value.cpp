@@ -99,6 +99,19 @@ Json CheckedSize(const Key& key, const Json& value, const std::string& pointer) 
                       CheckedInteger(key, value[1], PointerUnder(pointer, size_t{1}))});
 }
 
+Json CheckedPoints(const Key& key, const Json& value, const std::string& pointer) {
+  if (!value.is_array()) throw Wrong(value, pointer, Wanted(key));
+  Json checked = Json::array();
+  for (size_t i = 0; i < value.size(); ++i) {
+    const std::string here = PointerUnder(pointer, i);
+    if (!value[i].is_array() || value[i].size() != 2)
+      throw Wrong(value[i], here, "[x, y], numbers " + key.allowed);
+    checked.push_back({CheckedReal(key, value[i][0], PointerUnder(here, size_t{0})),
+                       CheckedReal(key, value[i][1], PointerUnder(here, size_t{1}))});
+  }
+  return checked;
+}
+
 Json CheckedReserved(const Key& key, const Json& value, const std::string& pointer) {
   if (value != key.fallback) throw Wrong(value, pointer, Wanted(key));
   return value;
@@ -110,6 +123,10 @@ std::string Wanted(const Key& key) {
   switch (key.kind) {
     case Kind::kSection:
       return "an object";
+    case Kind::kList:
+      return "a list of at most " + key.high.dump() + " objects";
+    case Kind::kPoints:
+      return "a list of [x, y], numbers " + key.allowed;
     case Kind::kReserved:
       return "empty in this version: " + key.fallback.dump();
     case Kind::kReal:
@@ -134,7 +151,10 @@ std::string Wanted(const Key& key) {
 Json CheckedLiteral(const Key& key, const Json& value, const std::string& pointer) {
   switch (key.kind) {
     case Kind::kSection:
+    case Kind::kList:
       throw std::logic_error("CheckedLiteral: a section is no literal");
+    case Kind::kPoints:
+      return CheckedPoints(key, value, pointer);
     case Kind::kReserved:
       return CheckedReserved(key, value, pointer);
     case Kind::kReal:

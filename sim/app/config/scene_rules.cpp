@@ -1,0 +1,100 @@
+// Rules between the keys of scenes that move: camera, objects, masks and their truth.
+#include <algorithm>
+#include <string>
+
+#include "sim/app/config/keys.h"
+#include "sim/app/config/rules.h"
+#include "sim/motion.h"
+
+namespace shimmer::app {
+namespace {
+
+// Whether a value, drawn or not, may be this name.
+bool MayBe(const Json& resolved, const Key& key, const std::string& name) {
+  const Json& value = resolved.at(Json::json_pointer(key.pointer));
+  return value.dump().find("\"" + name + "\"") != std::string::npos;
+}
+
+// Layouts that keep single frames of a clip.
+bool KeepsSingleFrames(const Config& fixed) {
+  return fixed.output.layout == LayoutKind::kPairs || fixed.output.layout == LayoutKind::kRestormer;
+}
+
+void CheckCamera(const Json& resolved, const Config& fixed) {
+  const sim::CameraParams& camera = DefaultConfig().camera;
+  const auto shifts = std::ssize(fixed.camera.shifts);
+  if (MayBe(resolved, KeyOf(camera.shake), "list") && shifts < fixed.frames)
+    throw ConfigError(KeyOf(camera.shifts).pointer, "has " + std::to_string(shifts) +
+                                                        " shifts, must have one for each of the " +
+                                                        std::to_string(fixed.frames) + " frames where " +
+                                                        KeyOf(camera.shake).path + " is list");
+}
+
+// Whether nothing in a section is drawn.
+bool IsFixed(const Json& section) {
+  return std::ranges::none_of(section, [](const Json& value) { return value.is_object(); });
+}
+
+// A path that is the same in every clip; others fail with their clip.
+void CheckPath(const Json& object, const Json& resolved, const Config& fixed, size_t i) {
+  if (!IsFixed(object.at("motion")) || resolved.at("size").is_object()) return;
+  try {
+    sim::Motion(fixed.objects[i].motion, fixed.size, fixed.frames);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError("/objects/" + std::to_string(i) + "/motion", error.what());
+  }
+}
+
+void CheckObjects(const Json& resolved, const Config& fixed) {
+  for (size_t i = 0; i < fixed.objects.size(); ++i) {
+    const ObjectParams& object = fixed.objects[i];
+    const bool video = !object.video.empty() || !object.sequence.empty();
+    if (video == object.masks.empty())
+      throw ConfigError("/objects/" + std::to_string(i) + "/masks",
+                        video ? "is empty, must say where in the video the object is"
+                              : "has no meaning without video or sequence");
+    CheckPath(resolved.at("objects")[i], resolved, fixed, i);
+  }
+}
+
+void CheckTruth(const Config& fixed) {
+  const bool video = !fixed.source.video.empty() || !fixed.source.sequence.empty();
+  if (!fixed.source.masks.empty() && !video)
+    throw ConfigError(KeyOf(DefaultConfig().source.masks).pointer,
+                      "has no meaning without source.video or source.sequence");
+  const std::vector<std::string>& truth = fixed.output.truth;
+  for (size_t i = 0; i < truth.size(); ++i) {
+    const std::string pointer = PointerUnder(KeyOf(DefaultConfig().output.truth).pointer, i);
+    if (truth[i] == "flow" && video)
+      throw ConfigError(pointer,
+                        "is \"flow\", but how things move in a video is not known: must be left out, or the "
+                        "source be images or drawn");
+    if ((truth[i] == "flow" || truth[i] == "shake") && KeepsSingleFrames(fixed))
+      throw ConfigError(pointer, "is \"" + truth[i] +
+                                     "\", which goes from frame to frame: must be left out where "
+                                     "output.layout is pairs or restormer, which keep single ones");
+  }
+}
+
+// A stream is made of all frames.
+void CheckCompression(const Json& resolved, const Config& fixed) {
+  const Key& key = KeyOf(DefaultConfig().sensor.compression);
+  if (MayBe(resolved, key, "h264") && KeepsSingleFrames(fixed) &&
+      fixed.output.frames_per_clip != fixed.frames)
+    throw ConfigError(key.pointer,
+                      "is h264, which takes all frames of a clip: must be none or jpeg where "
+                      "output.frames_per_clip keeps " +
+                          std::to_string(fixed.output.frames_per_clip) + " of " +
+                          std::to_string(fixed.frames));
+}
+
+}  // namespace
+
+void CheckSceneRules(const Json& resolved, const Config& fixed) {
+  CheckCamera(resolved, fixed);
+  CheckObjects(resolved, fixed);
+  CheckTruth(fixed);
+  CheckCompression(resolved, fixed);
+}
+
+}  // namespace shimmer::app
