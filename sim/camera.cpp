@@ -85,7 +85,8 @@ std::vector<cv::Point2d> Listed(const CameraParams& camera, int64_t frames) {
   return path;
 }
 
-int UpToWhole(double px) { return static_cast<int>(std::ceil(px)); }
+// A direction's cosine of 1e-16 is none.
+int UpToWhole(double px) { return static_cast<int>(std::ceil(px - 1e-9)); }
 
 }  // namespace
 

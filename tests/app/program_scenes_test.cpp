@@ -212,6 +212,13 @@ TEST(ProgramScenes, WhatCannotBeIsSaidWithItsField) {
   expect({{"objects", {{{"images", "nowhere"}}}}}, 2, {"/objects/0/images: ", "nowhere"});
 }
 
+TEST(ProgramScenes, ALabelIsNoValue) {
+  const TempFolder folder;
+  folder.Put("c.json", SetConfig("sequence", 1,
+                                 {{"camera", {{"shake", {{"choice", {"none", "walk"}}, {"as", "list"}}}}}}));
+  ExpectDone(Generate(folder, "c.json", "set"));
+}
+
 // Compression changes turbulent frames alone, and is what its library makes of them.
 TEST(ProgramScenes, CompressionIsOfTheTurbulentFrames) {
   const TempFolder folder;

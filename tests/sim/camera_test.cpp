@@ -114,6 +114,7 @@ TEST(ShakeReach, HoldsEveryPath) {
     EXPECT_GT(most.x, reach.width - 1.2);
     EXPECT_GT(most.y, reach.height - 1.2);
   }
+  EXPECT_EQ(ShakeReach({.shake = Shake::kVibration, .amplitude_px = 2}), cv::Size(0, 4)) << "along y alone";
   EXPECT_EQ(ShakeReach({}), cv::Size());
   EXPECT_EQ(ShakeReach({.shake = Shake::kWalk, .amplitude_px = 0}), cv::Size());
 }

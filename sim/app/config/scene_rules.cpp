@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "sim/app/config/distribution.h"
 #include "sim/app/config/keys.h"
 #include "sim/app/config/rules.h"
 #include "sim/motion.h"
@@ -12,7 +13,9 @@ namespace {
 // Whether a value, drawn or not, may be this name.
 bool MayBe(const Json& resolved, const Key& key, const std::string& name) {
   const Json& value = resolved.at(Json::json_pointer(key.pointer));
-  return value.dump().find("\"" + name + "\"") != std::string::npos;
+  if (!value.is_object()) return value == name;
+  const Json& options = value.at(kChoice);
+  return std::find(options.begin(), options.end(), name) != options.end();
 }
 
 // Layouts that keep single frames of a clip.
