@@ -4,11 +4,14 @@
 #include <cctype>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "sim/app/clean_frames.h"
 #include "sim/app/job.h"
+#include "sim/app/scene_marks.h"
 #include "sim/app/sheet.h"
+#include "sim/camera.h"
 #include "sim/clip_fields.h"
 #include "sim/colour.h"
 #include "sim/dataset/dataset_reader.h"
@@ -24,12 +27,13 @@ int64_t TimeOf(const Config& config, int64_t kept, int64_t kept_frames) {
   return config.first_frame + kept * config.frames / kept_frames;
 }
 
-std::string Label(int64_t clip, int64_t frame, const Config& config) {
+std::string Label(int64_t clip, int64_t frame, const Config& config, const std::optional<SceneMarks>& marks) {
   char text[160];
   std::snprintf(text, sizeof text, "clip %lld  frame %lld   S %.2f px   f %.4f   sigma %.2f-%.2f px",
                 static_cast<long long>(clip), static_cast<long long>(frame), config.tilt.strength_px,
                 config.tilt.base_frequency, config.blur.min_sigma_px, config.blur.max_sigma_px);
-  return text;
+  const std::string shake = marks ? marks->Label() : "";
+  return shake.empty() ? text : text + ("   " + shake);
 }
 
 // Up to `rows` clips, evenly spread.
@@ -60,28 +64,69 @@ class Previewer {
   std::vector<cv::Mat> Frames(int64_t clip) const {
     if (clip < 0) clip = *reader_.clips().begin();
     const Config config = config_.Draw(static_cast<uint64_t>(clip), nullptr);
+    const Shakes shakes = ShakesOf(clip, config);
     std::vector<cv::Mat> frames;
-    for (int64_t k = 0; k < std::min<int64_t>(reader_.FrameCount(clip), kMostGifFrames); ++k)
+    for (int64_t k = 0; k < std::min<int64_t>(reader_.FrameCount(clip), kMostGifFrames); ++k) {
+      const std::optional<SceneMarks> marks = MarksOf(clip, k, shakes);
       frames.push_back(DrawClipFrame(Small(ForTheEye(reader_.Clean(clip, k))),
-                                     Small(ForTheEye(reader_.Turb(clip, k))), Label(clip, k, config)));
+                                     Small(ForTheEye(reader_.Turb(clip, k))), Label(clip, k, config, marks),
+                                     marks));
+    }
     return frames;
   }
 
  private:
+  // Of each frame that is kept. Empty where it is not known.
+  struct Shakes {
+    std::vector<cv::Point2d> shifts_px;
+    bool written = false;  // as truth
+  };
+
+  Shakes ShakesOf(int64_t clip, const Config& config) const {
+    if (auto truth = reader_.TruthShake(clip)) return {std::move(*truth), true};
+    const auto frames = static_cast<size_t>(reader_.FrameCount(clip));
+    if (config.camera.shake == sim::Shake::kNone) return {std::vector<cv::Point2d>(frames), false};
+    if (!same_engine_) return {};
+    const auto path =
+        sim::ShakePath(config.camera, {config.seed, static_cast<uint64_t>(clip)}, config.frames);
+    Shakes shakes;
+    for (size_t k = 0; k < frames; ++k)
+      shakes.shifts_px.push_back(path.at(static_cast<size_t>(
+          TimeOf(config, static_cast<int64_t>(k), static_cast<int64_t>(frames)) - config.first_frame)));
+    return shakes;
+  }
+
+  // None where the set has no truth of a moving scene.
+  std::optional<SceneMarks> MarksOf(int64_t clip, int64_t frame, const Shakes& shakes) const {
+    const auto mask = reader_.TruthMask(clip, frame);
+    if (!mask && !shakes.written) return {};
+    SceneMarks marks{.mask = mask.value_or(cv::Mat()), .place = static_cast<size_t>(frame)};
+    if (!shakes.shifts_px.empty()) marks.turb_shake_px = shakes.shifts_px.at(marks.place);
+    marks.clean_shake_px = config_.fixed().camera.shaken_clean ? marks.turb_shake_px : cv::Point2d();
+    if (shakes.written) marks.path_px = shakes.shifts_px;
+    return marks;
+  }
+
   SheetRow Row(int64_t clip) const {
     const Config config = config_.Draw(static_cast<uint64_t>(clip), nullptr);
     const int64_t frames = reader_.FrameCount(clip), frame = frames / 2;
-    SheetRow row{.label = Label(clip, frame, config),
+    const std::optional<SceneMarks> marks = MarksOf(clip, frame, ShakesOf(clip, config));
+    SheetRow row{.label = Label(clip, frame, config, marks),
                  .clean = ForTheEye(reader_.Clean(clip, frame)),
                  .turb = ForTheEye(reader_.Turb(clip, frame)),
                  .tilt = {},
-                 .sigma = {}};
+                 .sigma = {},
+                 .marks = marks};
     const auto tilt = reader_.TruthTilt(clip, frame), sigma = reader_.TruthSigma(clip, frame);
     if (tilt && sigma) {
       row.tilt = *tilt, row.sigma = *sigma;
     } else if (same_engine_) {  // the fields of another engine would not be those of these pictures
-      const sim::ClipFields fields(SceneOf(config, true), PlanOf(config, true),
-                                   {config.seed, static_cast<uint64_t>(clip)});
+      const sim::ClipPlan plan = PlanOf(config, true);
+      if (plan.own_distances) {  // the fields alone don't know where an object scales them
+        row.tilt = tilt.value_or(cv::Mat()), row.sigma = sigma.value_or(cv::Mat());
+        return row;
+      }
+      const sim::ClipFields fields(SceneOf(config, true), plan, {config.seed, static_cast<uint64_t>(clip)});
       const sim::FrameTruth truth = fields.Truth(TimeOf(config, frame, frames));
       row.tilt = truth.tilt, row.sigma = truth.sigma;
     }

@@ -16,8 +16,10 @@ struct PreviewOptions {
 };
 
 // The middle frame of up to `rows` clips, spread over the data set: clean, turbulent, tilt as colours, sigma
-// as heat. Truth that was not written is computed again from the config. Gives CV_8UC3 RGB. Throws
-// std::runtime_error where a file can't be read, or if no clip is done.
+// as heat. Tilt and sigma that were not written are computed again from the config, but where objects have
+// distances of their own: there they are absent. With truth of moving scenes, the masks' outlines and the
+// camera's path are drawn over the frames. Gives CV_8UC3 RGB. Throws std::runtime_error where a file can't be
+// read, or if no clip is done.
 cv::Mat ContactSheet(const dataset::DatasetReader& reader, int rows);
 
 // Draws a contact sheet or an animation of one clip. Throws std::invalid_argument for another extension or a

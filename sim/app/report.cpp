@@ -1,5 +1,5 @@
-#include "sim/dataset/dataset_folder.h"
 #include "sim/app/report.h"
+#include "sim/dataset/dataset_folder.h"
 
 #include <algorithm>
 #include <iterator>
@@ -28,13 +28,23 @@ std::string Section(const std::string& id, const std::string& title, const std::
 
 std::string Charts(const std::string& charts) { return "<div class=\"charts\">\n" + charts + "</div>\n"; }
 
-std::string SheetHtml(const dataset::DatasetReader& reader) {
+std::string MarksNote(const std::vector<std::string>& truth) {
+  std::string note;
+  if (std::ranges::count(truth, "mask") > 0)
+    note += " Green lines are the edges of moving objects, by the masks.";
+  if (std::ranges::count(truth, "shake") > 0)
+    note += " The inset is the path of a camera that shakes; the dot is its place in this frame.";
+  return note;
+}
+
+std::string SheetHtml(const dataset::DatasetReader& reader, const std::vector<std::string>& truth) {
   const cv::Mat sheet = ContactSheet(reader, kSheetRows);
   const std::string size =
       "width=\"" + std::to_string(sheet.cols) + "\" height=\"" + std::to_string(sheet.rows) + "\"";
   return Section("sheet", "Contact sheet",
                  "The middle frame of clips that are spread evenly over the set. Tilt: hue is direction, "
-                 "saturation is length.",
+                 "saturation is length." +
+                     MarksNote(truth),
                  "<div class=\"sheet\" tabindex=\"0\"><img alt=\"Clean frames, turbulent frames, tilt and "
                  "sigma of some clips, side by side\" " +
                      size + " src=\"data:image/jpeg;base64," +
@@ -42,12 +52,20 @@ std::string SheetHtml(const dataset::DatasetReader& reader) {
 }
 
 std::string MeasuredHtml(const ReportFacts& facts) {
-  return Section("measured", "Tilt RMS and sigma",
+  std::string motion;
+  if (!facts.shake_rms_px.numbers.empty())
+    motion += HistogramHtml({"shake_rms_px", "px", {"RMS of the camera's shift off its first place"}},
+                            facts.shake_rms_px.numbers, AxisKind::kLinear);
+  if (!facts.moving_share.numbers.empty())
+    motion += HistogramHtml({"moving_share", "", {"share of the frame that moving objects cover, mean"}},
+                            facts.moving_share.numbers, AxisKind::kLinear);
+  return Section("measured", motion.empty() ? "Tilt RMS and sigma" : "Tilt RMS, sigma and motion",
                  "One value a clip, over all pixels of the frames that were written.",
                  Charts(HistogramHtml({"tilt_rms_px", "px", {"RMS of the shift along an axis"}},
                                       facts.tilt_rms_px.numbers, AxisKind::kLinear) +
                         HistogramHtml({"mean_sigma_px", "px", {"mean of the blur's sigma"}},
-                                      facts.mean_sigma_px.numbers, AxisKind::kLinear)));
+                                      facts.mean_sigma_px.numbers, AxisKind::kLinear) +
+                        motion));
 }
 
 std::string DrawnHtml(const ConfigFile& config, const ReportFacts& facts) {
@@ -63,9 +81,14 @@ std::string SourcesHtml(const Json& sources, const ReportFacts& facts) {
   std::vector<BarRow> rows;
   for (const auto& [path, clips] : facts.clips_of_source) rows.push_back({path, clips});
   std::ranges::stable_sort(rows, std::ranges::greater(), &BarRow::count);
+  const SourceCounts counts = CountSources(sources);
+  const std::string others = counts.masks_and_objects == 0
+                                 ? ""
+                                 : " The set is made from these and " +
+                                       Counted(counts.masks_and_objects, "file") + " of masks and objects.";
   return Section("sources", "Sources",
-                 Grouped(std::ssize(rows)) + " of " + Counted(std::ssize(sources), "source file") +
-                     (rows.size() == 1 ? " is" : " are") + " seen in clips that are done.",
+                 Grouped(std::ssize(rows)) + " of " + Counted(counts.backgrounds, "source file") +
+                     (rows.size() == 1 ? " is" : " are") + " seen in clips that are done." + others,
                  BarsHtml({"source.path", "", {"clips that show it"}}, rows));
 }
 
@@ -118,7 +141,7 @@ std::string ReportHtml(const std::filesystem::path& folder) {
   if (reader.clips().empty())
     html += "<p class=\"empty\">No clip is done: there is nothing to show yet.</p>\n";
   else
-    html += SheetHtml(reader) + MeasuredHtml(facts) + DrawnHtml(config, facts) +
+    html += SheetHtml(reader, config.fixed().output.truth) + MeasuredHtml(facts) + DrawnHtml(config, facts) +
             SourcesHtml(reader.description().value("sources", Json::array()), facts);
   return html + FailuresHtml(facts) + "<details>\n<summary>Config</summary>\n<pre>" +
          EscapeHtml(config.resolved().dump(2)) + "</pre>\n</details>\n</body>\n</html>\n";

@@ -22,6 +22,8 @@ void AddDone(const Json& line, ReportFacts& facts) {
     for (const auto& [key, value] : drawn.items()) facts.drawn[key].Add(value);
   facts.tilt_rms_px.Add(Member(line, "tilt_rms_px"));
   facts.mean_sigma_px.Add(Member(line, "mean_sigma_px"));
+  facts.shake_rms_px.Add(Member(line, "shake_rms_px"));
+  facts.moving_share.Add(Member(line, "moving_share"));
   if (const Json& path = Member(Member(line, "source"), "path"); path.is_string())
     ++facts.clips_of_source[path.get_ref<const std::string&>()];
   for (const Json& file : Member(line, "files"))
@@ -53,6 +55,15 @@ void Values::Add(const Json& value) {
     numbers.push_back(number);
 }
 
+SourceCounts CountSources(const Json& sources) {
+  SourceCounts counts;
+  for (const Json& source : sources) {
+    const bool other = source.is_object() && (source.contains("mask_of") || source.contains("object"));
+    ++(other ? counts.masks_and_objects : counts.backgrounds);
+  }
+  return counts;
+}
+
 ReportFacts FactsOf(const dataset::DatasetReader& reader) {
   ReportFacts facts;
   reader.manifest().ForEachLine([&](int64_t, const Json& line) {
@@ -62,8 +73,8 @@ ReportFacts FactsOf(const dataset::DatasetReader& reader) {
       AddFailed(line, facts);
   });
   for (auto& [key, values] : facts.drawn) std::ranges::sort(values.numbers);
-  std::ranges::sort(facts.tilt_rms_px.numbers);
-  std::ranges::sort(facts.mean_sigma_px.numbers);
+  for (Values* values : {&facts.tilt_rms_px, &facts.mean_sigma_px, &facts.shake_rms_px, &facts.moving_share})
+    std::ranges::sort(values->numbers);
   return facts;
 }
 

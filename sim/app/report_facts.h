@@ -32,10 +32,17 @@ inline constexpr size_t kFirstClips = 20;
 struct ReportFacts {
   std::map<std::string, Values> drawn;  // by key ("tilt.strength_px")
   Values tilt_rms_px, mean_sigma_px;
+  Values shake_rms_px, moving_share;               // of clips whose camera shakes, and that have masks
   std::map<std::string, int64_t> clips_of_source;  // by path; none of drawn scenes
   std::map<std::string, Failure> failures;         // by error
   uint64_t file_bytes = 0;                         // of the clips' files; 0 where the lines don't say
 };
+
+// The records of dataset.json's sources, by what they are of.
+struct SourceCounts {
+  int64_t backgrounds = 0, masks_and_objects = 0;
+};
+SourceCounts CountSources(const Json& sources);
 
 // Reads every line once, and keeps of it no more than the numbers above. Throws std::runtime_error.
 ReportFacts FactsOf(const dataset::DatasetReader& reader);

@@ -52,7 +52,10 @@ std::string SourcesText(const Json& sources) {
   const auto unread = std::ranges::count_if(sources, [](const Json& source) {
     return source.is_object() && source.value("sha256", Json()).is_null();
   });
-  const std::string text = Counted(std::ssize(sources), "file");
+  const SourceCounts counts = CountSources(sources);
+  std::string text = counts.backgrounds == 0 ? "drawn scenes" : Counted(counts.backgrounds, "file");
+  if (counts.masks_and_objects > 0)
+    text += " and " + Counted(counts.masks_and_objects, "file") + " of masks and objects";
   return unread == 0 ? text : text + ", " + Grouped(unread) + " can't be read";
 }
 

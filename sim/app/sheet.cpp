@@ -34,6 +34,16 @@ cv::Mat Shown(const cv::Mat& frame) {
   return shown;
 }
 
+// A frame as a page shows it, with marks where there are any.
+cv::Mat Marked(const cv::Mat& frame, int cell_px, const std::optional<SceneMarks>& marks,
+               void (*mark)(cv::Mat&, const SceneMarks&)) {
+  cv::Mat shown = Shown(frame);
+  if (shown.empty() || !marks) return shown;
+  shown = Fitted(shown, cell_px);  // first: lines must not shrink with the frame
+  mark(shown, *marks);
+  return shown;
+}
+
 // A round end of a scale that is not below value; 1 for 0.
 double ScaleEnd(double value) { return value > 0 ? RoundUp(value, {1, 1.5, 2, 3, 4, 5, 6, 8}) : 1; }
 
@@ -97,15 +107,18 @@ cv::Mat DrawSheet(std::span<const SheetRow> rows, int cell_px) {
   for (const SheetRow& row : rows) {
     page.AddRow(
         row.label,
-        {Shown(row.clean), Shown(row.turb), row.tilt.empty() ? cv::Mat() : TiltAsColours(row.tilt, tilt_px),
+        {Marked(row.clean, cell_px, row.marks, MarkClean), Marked(row.turb, cell_px, row.marks, MarkTurb),
+         row.tilt.empty() ? cv::Mat() : TiltAsColours(row.tilt, tilt_px),
          row.sigma.empty() ? cv::Mat() : SigmaAsHeat(row.sigma, sigma_px.low, sigma_px.high)});
   }
   return page.Draw();
 }
 
-cv::Mat DrawClipFrame(const cv::Mat& clean, const cv::Mat& turb, const std::string& label) {
+cv::Mat DrawClipFrame(const cv::Mat& clean, const cv::Mat& turb, const std::string& label,
+                      const std::optional<SceneMarks>& marks) {
   Page page({{"clean", {}}, {"turbulent", {}}}, kClipCellPx);
-  page.AddRow(label, {Shown(clean), Shown(turb)});
+  page.AddRow(label,
+              {Marked(clean, kClipCellPx, marks, MarkClean), Marked(turb, kClipCellPx, marks, MarkTurb)});
   return page.Draw(Page::Labels::kOneLine);
 }
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <span>
 #include <string>
+
+#include "sim/app/scene_marks.h"
 
 namespace shimmer::app {
 
@@ -12,8 +15,9 @@ namespace shimmer::app {
 struct SheetRow {
   std::string label;  // "clip 3 frame 8   S 5.2 px   f 0.031"
   cv::Mat clean, turb;
-  cv::Mat tilt;   // CV_32FC2: dx, dy in px
-  cv::Mat sigma;  // CV_32FC1, px
+  cv::Mat tilt;                          // CV_32FC2: dx, dy in px
+  cv::Mat sigma;                         // CV_32FC1, px
+  std::optional<SceneMarks> marks = {};  // drawn over clean and turb
 };
 
 // One row of cells a SheetRow, under titles and, for tilt and sigma, one scale for the whole sheet: tilt's
@@ -24,6 +28,7 @@ cv::Mat DrawSheet(std::span<const SheetRow> rows, int cell_px = 256);
 
 // Clean and turbulent frame side by side. Frames of equal size give pictures of equal size, whatever the
 // labels (a long one is cut). Gives CV_8UC3 RGB; types as above.
-cv::Mat DrawClipFrame(const cv::Mat& clean, const cv::Mat& turb, const std::string& label);
+cv::Mat DrawClipFrame(const cv::Mat& clean, const cv::Mat& turb, const std::string& label,
+                      const std::optional<SceneMarks>& marks = {});
 
 }  // namespace shimmer::app

@@ -35,19 +35,6 @@ std::string InPx(double value) {
   return text;
 }
 
-// Down to cell_px by areas; up by a whole factor, so that pixels stay squares.
-cv::Mat Fitted(const cv::Mat& image, int cell_px) {
-  const int longest = std::max(image.cols, image.rows);
-  cv::Mat fitted;
-  if (longest > cell_px) {
-    const auto side = [&](int px) { return std::max(1, int(std::lround(double(px) * cell_px / longest))); };
-    cv::resize(image, fitted, {side(image.cols), side(image.rows)}, 0, 0, cv::INTER_AREA);
-  } else {
-    cv::resize(image, fitted, image.size() * (cell_px / longest), 0, 0, cv::INTER_NEAREST);
-  }
-  return fitted;
-}
-
 void DrawCell(cv::Mat& page, const cv::Mat& cell, const cv::Rect& area) {
   cv::rectangle(page, area + cv::Point(-1, -1) + cv::Size(2, 2), AsScalar(kLine), 1);  // around, not over
   if (!cell.empty()) {
@@ -71,6 +58,18 @@ std::vector<std::string> LabelLines(const std::string& label, double width_px, P
 }
 
 }  // namespace
+
+cv::Mat Fitted(const cv::Mat& image, int cell_px) {
+  const int longest = std::max(image.cols, image.rows);
+  cv::Mat fitted;
+  if (longest > cell_px) {
+    const auto side = [&](int px) { return std::max(1, int(std::lround(double(px) * cell_px / longest))); };
+    cv::resize(image, fitted, {side(image.cols), side(image.rows)}, 0, 0, cv::INTER_AREA);
+  } else {
+    cv::resize(image, fitted, image.size() * (cell_px / longest), 0, 0, cv::INTER_NEAREST);
+  }
+  return fitted;
+}
 
 void Page::AddRow(const std::string& label, const std::vector<cv::Mat>& images) {
   Row row{label, {}, {cell_px_, cell_px_ / 2}};

@@ -40,6 +40,10 @@ class Page {
   std::vector<Row> rows_;
 };
 
+// An image at the size that a page shows it in: down to cell_px by areas, or up by a whole factor as far as
+// it fits, so that pixels stay squares. One that has it already is not changed.
+cv::Mat Fitted(const cv::Mat& image, int cell_px);
+
 cv::Mat TiltLegend(double full_scale_px);            // wheel of TiltAsColours, with what its rim means
 cv::Mat SigmaLegend(double low_px, double high_px);  // bar of SigmaAsHeat, with what its ends mean
 
