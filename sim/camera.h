@@ -4,6 +4,7 @@
 // p in the steady frame is seen at p + s.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -14,6 +15,8 @@
 namespace shimmer::sim {
 
 enum class Shake { kNone, kWalk, kDrift, kVibration, kList };
+
+inline constexpr std::array<const char*, 5> kShakeNames = {"none", "walk", "drift", "vibration", "list"};
 
 inline constexpr double kMostShake_px = 400;
 
@@ -30,7 +33,7 @@ struct CameraParams {
   template <class Self, class Visitor>
   static void Fields(Self& self, Visitor& visit) {
     visit(Field{.name = "shake",
-                .names = {"none", "walk", "drift", "vibration", "list"},
+                .names = {kShakeNames.begin(), kShakeNames.end()},
                 .help = "how the camera moves: a random walk, a random drift about its place (an "
                         "Ornstein-Uhlenbeck process), a sine along one direction, or as `shifts` says"},
           self.shake);

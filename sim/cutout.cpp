@@ -61,7 +61,13 @@ Cutout::Cutout(const cv::Mat& rgba) {
   for (cv::Mat& picture : halved_) picture = WithBorder(picture);
 }
 
-Layer Cutout::Draw(double height_px, const Pose& pose) const {
+int64_t Cutout::bytes() const {
+  int64_t bytes = 0;
+  for (const cv::Mat& picture : halved_) bytes += static_cast<int64_t>(picture.total() * picture.elemSize());
+  return bytes;
+}
+
+Layer Cutout::Draw(double height_px, const Pose& pose, cv::Rect within) const {
   const cv::Size whole(halved_[0].cols - 2 * kBorder_px, halved_[0].rows - 2 * kBorder_px);
   double px_per_sample = height_px * pose.scale / whole.height;
   if (!(px_per_sample > 0)) return {};
@@ -73,9 +79,9 @@ Layer Cutout::Draw(double height_px, const Pose& pose) const {
                           (whole.height / 2.0 + 2 * step) * px_per_sample);
   const double half_width = std::abs(along.x) * reach.x + std::abs(across.x) * reach.y,
                half_height = std::abs(along.y) * reach.x + std::abs(across.y) * reach.y;
-  const cv::Rect area(
-      cv::Point(cvFloor(pose.centre.x - half_width), cvFloor(pose.centre.y - half_height)),
-      cv::Point(cvCeil(pose.centre.x + half_width) + 1, cvCeil(pose.centre.y + half_height) + 1));
+  const cv::Point2d half(half_width, half_height);
+  const cv::Rect area = PixelsWithin(within, pose.centre - half, pose.centre + half);
+  if (area.empty()) return {};
   Layer layer{area, cv::Mat(area.size(), CV_32FC4)};
   for (int y = 0; y < area.height; ++y)
     for (int x = 0; x < area.width; ++x) {

@@ -14,7 +14,7 @@ FrameBlur::FrameBlur(const Planes& frame, const BlurParams& params, const BlurPl
     return;
   }
   cv::merge(frame, interleaved_);
-  if (plan.way == BlurWay::kStack) stack_.emplace(interleaved_, params.min_sigma_px, params.max_sigma_px);
+  if (plan.way == BlurWay::kStack) stack_.emplace(interleaved_, plan.least_sigma_px, params.max_sigma_px);
 }
 
 void FrameBlur::Band(cv::Point first, const cv::Mat& sigma_px, Planes& out) const {

@@ -1,6 +1,8 @@
 #include "sim/layer.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "sim/colour.h"
@@ -28,6 +30,19 @@ void LayOver(const Layer& near, Layer& far) {
 }
 
 }  // namespace
+
+cv::Rect PixelsWithin(cv::Rect within, cv::Point2d low, cv::Point2d high) {
+  // In doubles until it is within: an object may be larger than any int.
+  const auto cut = [](double px, int least, int most) {
+    return static_cast<int>(std::clamp<double>(px, least, most));
+  };
+  const cv::Point last = within.br(),
+                  first(cut(std::floor(low.x), within.x, last.x), cut(std::floor(low.y), within.y, last.y)),
+                  end(cut(std::ceil(high.x) + 1, within.x, last.x),
+                      cut(std::ceil(high.y) + 1, within.y, last.y));
+  const cv::Rect area(first, end);
+  return area.empty() ? cv::Rect() : area;
+}
 
 std::vector<Layer> Flattened(std::vector<Layer> layers) {
   std::vector<Layer> flat;

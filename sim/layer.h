@@ -11,6 +11,12 @@ struct Layer {
   cv::Mat rgba;   // CV_32FC4 of that size: red, green and blue times alpha, and alpha, in [0, 1]
 };
 
+// Wide enough for whatever is drawn, and for sums of its coordinates: as `within` it leaves nothing out.
+inline const cv::Rect kEverywhere(-(1 << 28), -(1 << 28), 1 << 29, 1 << 29);
+
+// The pixels within an area that [low, high] touches, px, however far these are: what of a thing is seen.
+cv::Rect PixelsWithin(cv::Rect within, cv::Point2d low, cv::Point2d high);
+
 // Layers, from the farthest to the nearest, as layers that do not meet: those whose areas do are one, the
 // nearer over the farther (out = near + (1 - alpha_near) far).
 std::vector<Layer> Flattened(std::vector<Layer> layers);

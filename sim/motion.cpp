@@ -116,9 +116,17 @@ cv::Point2d Motion::PlaceAt(double time) const {
   throw std::logic_error("Motion: no such path");
 }
 
+bool Motion::BeginsLeftward() const {
+  constexpr double kMoment_frames = 1e-3, kUpright = 1e-6;  // a direction of 90 degrees leans by rounding
+  const cv::Point2d way = PlaceAt(kMoment_frames) - PlaceAt(0);
+  return way.x < -kUpright * cv::norm(way);
+}
+
 Pose Motion::At(double time) const {
+  constexpr double kMostLog = 14;
+  const double log_scale = std::clamp(noise::Log(params_.scale_rate) * time, -kMostLog, kMostLog);
   return {.centre = PlaceAt(time) + shift_,
-          .scale = params_.scale_rate == 1 ? 1 : noise::Exp(noise::Log(params_.scale_rate) * time),
+          .scale = params_.scale_rate == 1 ? 1 : noise::Exp(log_scale),
           .turns = (params_.rotation_deg + params_.rotation_rate * time) / 360};
 }
 

@@ -98,8 +98,8 @@ struct MotionParams {
 
 struct Pose {
   cv::Point2d centre;  // px of the clip's frame; pixel (0, 0) is the square around (0, 0)
-  double scale = 1;
-  double turns = 0;  // clockwise on screen
+  double scale = 1;    // [e^-14, e^14]: an object of more than all frames, or less than a pixel
+  double turns = 0;    // clockwise on screen
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 
@@ -129,6 +129,9 @@ class Motion {
  public:
   Motion(const MotionParams& params, cv::Size frame, int64_t frames);
   Pose At(double time_frames) const;
+
+  // Whether its first step goes to the left rather than up, down, to the right or nowhere.
+  bool BeginsLeftward() const;
 
  private:
   cv::Point2d PlaceAt(double time_frames) const;

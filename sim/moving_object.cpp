@@ -19,11 +19,13 @@ MovingObject::MovingObject(Look look, const MotionParams& motion, cv::Size frame
       motion_(motion, frame, frames),
       speed_px_(motion.speed_px),
       height_px_(height_px),
-      shutter_(shutter) {}
+      shutter_(shutter),
+      faces_left_(motion_.BeginsLeftward()) {}
 
 std::vector<ShapePart> MovingObject::PartsAt(const DrawnLook& look, double time) const {
-  return PartsOf(look.shape, height_px_ > 0 ? speed_px_ * time / (kStrideHeights * height_px_) : 0,
-                 look.colour);
+  const double stride = height_px_ > 0 ? speed_px_ * time / (kStrideHeights * height_px_) : 0;
+  std::vector<ShapePart> parts = PartsOf(look.shape, stride, look.colour);
+  return faces_left_ ? Mirrored(std::move(parts)) : parts;
 }
 
 const Cutout* MovingObject::CutoutAt(int64_t frame, std::shared_ptr<const Cutout>& keeper) const {
@@ -32,12 +34,12 @@ const Cutout* MovingObject::CutoutAt(int64_t frame, std::shared_ptr<const Cutout
   return keeper.get();
 }
 
-Layer MovingObject::Snapshot(double time, int64_t frame) const {
+Layer MovingObject::Snapshot(double time, int64_t frame, cv::Rect within) const {
   const Pose pose = motion_.At(time);
   if (const auto* drawn = std::get_if<DrawnLook>(&look_))
-    return DrawParts(PartsAt(*drawn, time), height_px_, pose);
+    return DrawParts(PartsAt(*drawn, time), height_px_, pose, within);
   std::shared_ptr<const Cutout> keeper;
-  return CutoutAt(frame, keeper)->Draw(height_px_, pose);
+  return CutoutAt(frame, keeper)->Draw(height_px_, pose, within);
 }
 
 // As many that none of the object's outermost places goes further than a step from one to the next.
@@ -54,12 +56,12 @@ int MovingObject::SnapshotsAt(int64_t k) const {
   return std::clamp(static_cast<int>(std::ceil(way_px / kSnapshotStep_px)), 1, kMostSnapshots);
 }
 
-Layer MovingObject::At(int64_t k) const {
+Layer MovingObject::At(int64_t k, cv::Rect within) const {
   const int snapshots = SnapshotsAt(k);
   LayerMean mean;
   for (int i = 0; i < snapshots; ++i) {
     const double share = (i + 0.5) / snapshots - 0.5;  // of the shutter's time
-    mean.Add(Snapshot(static_cast<double>(k) + shutter_ * share, k));
+    mean.Add(Snapshot(static_cast<double>(k) + shutter_ * share, k, within));
   }
   return mean.Mean();
 }
@@ -70,8 +72,8 @@ cv::Mat MovingObject::FlowAt(int64_t k, cv::Rect area) const {
   if (const auto* drawn = std::get_if<DrawnLook>(&look_))
     return PartsFlow(PartsAt(*drawn, time), now, PartsAt(*drawn, time + 1), next, height_px_, area);
   cv::Mat flow(area.size(), CV_32FC2, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
-  const Layer layer = Snapshot(time, k);
-  const cv::Rect seen = layer.area & area;
+  const Layer layer = Snapshot(time, k, area);
+  const cv::Rect seen = layer.area;
   const Carry carry(now, next);
   for (int y = seen.y; y < seen.br().y; ++y)
     for (int x = seen.x; x < seen.br().x; ++x) {

@@ -30,9 +30,10 @@ class MovingObject {
   MovingObject(Look look, const MotionParams& motion, cv::Size frame, int64_t frames, double height_px,
                double shutter);
 
-  // Frame k of the clip, counted from its first: light and coverage, means over the shutter's time. A walker
-  // makes a stride while it goes 0.9 of its height.
-  Layer At(int64_t k) const;
+  // Frame k of the clip, counted from its first: light and coverage, means over the shutter's time, of what
+  // lies within an area. A walker makes a stride while it goes 0.9 of its height. A drawn shape whose path
+  // begins to the left faces left.
+  Layer At(int64_t k, cv::Rect within = kEverywhere) const;
 
   // Of each pixel of an area: the way, px, of what is seen there at frame k's own time to where it is at that
   // of the next. CV_32FC2; NaN where less than half of the pixel is covered. Of a video the picture's own
@@ -40,7 +41,7 @@ class MovingObject {
   cv::Mat FlowAt(int64_t k, cv::Rect area) const;
 
  private:
-  Layer Snapshot(double time_frames, int64_t frame) const;
+  Layer Snapshot(double time_frames, int64_t frame, cv::Rect within) const;
   std::vector<ShapePart> PartsAt(const DrawnLook& look, double time_frames) const;
   const Cutout* CutoutAt(int64_t frame, std::shared_ptr<const Cutout>& keeper) const;
   int SnapshotsAt(int64_t k) const;
@@ -48,6 +49,7 @@ class MovingObject {
   Look look_;
   Motion motion_;
   double speed_px_, height_px_, shutter_;
+  bool faces_left_;
 };
 
 }  // namespace shimmer::sim

@@ -4,11 +4,15 @@
 
 namespace shimmer::sim {
 
-MovingScene::MovingScene(std::vector<PlacedObject> objects, cv::Size size, bool linear_light)
-    : objects_(std::move(objects)), size_(size), linear_light_(linear_light) {}
+MovingScene::MovingScene(std::vector<PlacedObject> objects, const ClipPlan& plan, Rounding rounding)
+    : objects_(std::move(objects)),
+      area_(plan.Area()),
+      size_(plan.shape.size),
+      linear_light_(plan.linear_light),
+      rounding_(std::move(rounding)) {}
 
 MovingScene::Frame::Frame(const MovingScene& scene, int64_t k) : scene_(&scene), k_(k) {
-  for (const PlacedObject& placed : scene.objects_) layers_.push_back(placed.object.At(k));
+  for (const PlacedObject& placed : scene.objects_) layers_.push_back(placed.object.At(k, scene.area_));
   flat_ = Flattened(layers_);
 }
 
@@ -17,7 +21,10 @@ std::vector<cv::Rect> MovingScene::Frame::Over(cv::Mat& samples, cv::Point origi
   for (const Layer& layer : flat_) {
     Composite(layer, origin, scene_->linear_light_, samples);
     const cv::Rect seen = (layer.area - origin) & cv::Rect({}, samples.size());
-    if (!seen.empty()) areas.push_back(seen);
+    if (seen.empty()) continue;
+    cv::Mat composed = samples(seen);
+    if (scene_->rounding_) scene_->rounding_(composed);
+    areas.push_back(seen);
   }
   return areas;
 }

@@ -2,6 +2,7 @@
 // about them. All in the steady frame, whose pixel (0, 0) is the crop's first (sim/camera.h).
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -16,16 +17,20 @@ struct PlacedObject {
   double distance = 1;  // factor on tilt and sigma where it is seen, [0, 1]
 };
 
+// Rounds samples to those that a file holds, in place.
+using Rounding = std::function<void(cv::Mat& samples)>;
+
 class MovingScene {
  public:
-  // size: the crop's. linear_light: the background is stored as sRGB and light is composed (ClipPlan).
-  MovingScene(std::vector<PlacedObject> objects, cv::Size size, bool linear_light);
+  // plan: the clip's; nothing is drawn that lies outside of its Area(). rounding: of what is composed, where
+  // samples of its type may be none of a file's (half floats).
+  MovingScene(std::vector<PlacedObject> objects, const ClipPlan& plan, Rounding rounding = {});
 
   // All that moves in frame k, counted from the clip's first.
   class Frame {
    public:
-    // Over samples (of CleanFrame's types) whose pixel (0, 0) lies at origin. Gives the areas, in the
-    // samples' own pixels, outside of which nothing changed.
+    // Over samples (of CleanFrame's types) whose pixel (0, 0) lies at origin, in stored or linear light as
+    // the plan says. Gives the areas, in the samples' own pixels, outside of which nothing changed.
     std::vector<cv::Rect> Over(cv::Mat& samples, cv::Point origin) const;
 
     // Coverage by any object, CV_32FC1 in [0, 1].
@@ -50,8 +55,10 @@ class MovingScene {
 
  private:
   std::vector<PlacedObject> objects_;
-  cv::Size size_;
+  cv::Rect area_;  // that may be seen
+  cv::Size size_;  // the crop's
   bool linear_light_;
+  Rounding rounding_;
 };
 
 // The clean frames of a clip with moving objects over a background that stands, prepared for rendering: from

@@ -61,6 +61,7 @@ BlurPlan PlanBlur(const BlurParams& blur, const ClipPlan& clip, const BlurChoice
   plan.margin_px = plan.way == BlurWay::kLadder
                        ? LevelLadder::For(blur.max_sigma_px, plan.grade).margin_px()
                        : GaussianRadius(static_cast<float>(blur.max_sigma_px));  // sigmas are float32
+  plan.least_sigma_px = clip.own_distances ? 0 : blur.min_sigma_px;
   const bool varies = blur.max_sigma_px > blur.min_sigma_px;
   plan.noise = varies && blur.tilt_weight < 1;
   plan.tilt = varies && blur.tilt_weight > 0 && tilt;

@@ -50,6 +50,7 @@ struct BlurPlan {
   bool noise = false;                          // the map has a Perlin part
   bool tilt = false;                           // the map has a tilt part
   bool frozen = false;                         // one map serves all frames
+  double least_sigma_px = 0;                   // that the map may have: objects scale it
   int margin_px = 0;                           // px around a pixel that its value is gathered from
   noise::FieldPlan field = {};                 // how the Perlin part is evaluated; errors in the noise's unit
   double promised_levels = 0;  // RMS error on a natural picture, in 1/255: of a ladder, and of sigma
@@ -64,6 +65,8 @@ struct BlurPlan {
     visit(Field{.name = "noise", .help = "the map has a Perlin part"}, self.noise);
     visit(Field{.name = "tilt", .help = "the map has a tilt part"}, self.tilt);
     visit(Field{.name = "frozen", .help = "one map serves all frames"}, self.frozen);
+    visit(Field{.name = "least_sigma_px", .unit = "px", .help = "that the map may have: objects scale it"},
+          self.least_sigma_px);
     visit(
         Field{.name = "margin_px", .unit = "px", .help = "px around a pixel that its value is gathered from"},
         self.margin_px);
@@ -107,7 +110,12 @@ struct ClipPlan {
   int WarpMargin() const;
   // Px of the steady frame that are read around the crop over all frames.
   int AroundPx() const { return halo_px + (shake ? std::max(shake->reach_x_px, shake->reach_y_px) : 0); }
-  // What is read of the steady frame for a frame of this shake; (0, 0) is the crop's first pixel.
+  // All that is read of the steady frames of the clip; (0, 0) is the crop's first pixel.
+  cv::Rect Area() const {
+    const int around_px = AroundPx();
+    return {-around_px, -around_px, shape.size.width + 2 * around_px, shape.size.height + 2 * around_px};
+  }
+  // What is read of the steady frame for a frame of this shake.
   cv::Rect Window(cv::Point2d shake_px) const;
 
   friend bool operator==(const ClipPlan&, const ClipPlan&) = default;

@@ -135,7 +135,15 @@ std::vector<ShapePart> PartsOf(Shape shape, double stride, const cv::Vec3f& colo
   throw std::logic_error("PartsOf: no such shape");
 }
 
-Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pose& pose) {
+std::vector<ShapePart> Mirrored(std::vector<ShapePart> parts) {
+  for (ShapePart& part : parts) {
+    part.a.x = -part.a.x;
+    if (part.kind == Kind::kCapsule) part.b.x = -part.b.x;  // a box's b is its half size
+  }
+  return parts;
+}
+
+Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pose& pose, cv::Rect within) {
   const double unit_px = height_px * pose.scale;
   if (parts.empty() || !(unit_px > 0)) return {};
   const cv::Point2d along = UnitVector(pose.turns),
@@ -153,8 +161,8 @@ Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pos
         high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
       }
   }
-  const cv::Rect area(cv::Point(cvFloor(low.x), cvFloor(low.y)),
-                      cv::Point(cvCeil(high.x) + 1, cvCeil(high.y) + 1));
+  const cv::Rect area = PixelsWithin(within, low, high);
+  if (area.empty()) return {};
   Layer layer{area, cv::Mat::zeros(area.size(), CV_32FC4)};
   for (int y = 0; y < area.height; ++y)
     for (int x = 0; x < area.width; ++x) {

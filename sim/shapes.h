@@ -32,10 +32,15 @@ struct ShapePart {
 // turns by its pose. colour: of most of it; the rest follows from it.
 std::vector<ShapePart> PartsOf(Shape shape, double stride, const cv::Vec3f& colour);
 
+// The same, heading to the left.
+std::vector<ShapePart> Mirrored(std::vector<ShapePart> parts);
+
 // The parts at a pose; an object's height is height_px times the pose's scale. The area is the least that
-// holds all of it, and empty for a height of 0. Coverage of a pixel: by the distance of its middle from the
-// edge, 0.5 - d within [0, 1], which is exact where a straight edge crosses it upright.
-Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pose& pose);
+// holds all of it that lies within another; empty if there is nothing, as for a height of 0. Coverage of a
+// pixel: by the distance of its middle from the edge, 0.5 - d within [0, 1], which is exact where a straight
+// edge crosses it upright.
+Layer DrawParts(const std::vector<ShapePart>& parts, double height_px, const Pose& pose,
+                cv::Rect within = kEverywhere);
 
 // Of each pixel of an area, in px: the way of what is seen there to where it is in `next`, the same shape's
 // parts at another time. CV_32FC2; NaN where less than half of the pixel is covered. Parts are rigid: each

@@ -116,9 +116,11 @@ class ObjectMaker {
 
   sim::Look CutoutLook() const {
     const std::filesystem::path& file = sources_.items()[item_];
-    const dataset::CutoutPicture picture = dataset::ReadCutout(file);
-    return std::make_shared<const sim::Cutout>(
-        Premultiplied(picture.rgb, picture.alpha, !picture.linear, linear_light_));
+    return job_.cutouts->Get(file.native(), [&] {  // one job's are all of the same light
+      const dataset::CutoutPicture picture = dataset::ReadCutout(file);
+      return std::make_shared<const sim::Cutout>(
+          Premultiplied(picture.rgb, picture.alpha, !picture.linear, linear_light_));
+    });
   }
 
   sim::Look VideoLook() {
@@ -131,14 +133,19 @@ class ObjectMaker {
                                " frames, must have at least " + std::to_string(config_.frames) + " (frames)");
     const int64_t start = sim::DrawInteger(key_, path_ + ".start", 0, spare);
     record_["start"] = start;
-    return [=, linear_light = linear_light_, path = path_](int64_t k) {
+    // One frame is asked for again and again: for each snapshot while the shutter is open, and for its flow.
+    return [=, linear_light = linear_light_, path = path_, last = int64_t{-1},
+            shown = std::shared_ptr<const sim::Cutout>()](int64_t k) mutable {
+      if (k == last) return shown;
       const dataset::Picture frame = frames->Read(start + k), mask = masks->Read(start + k);
       if (mask.pixels.size() != frame.pixels.size())
         throw std::runtime_error(path + ".masks: " + masks_file.string() + ": frame " +
                                  std::to_string(start + k) + " is " + SizeText(mask.pixels.size()) +
                                  " px, must be " + SizeText(frame.pixels.size()) + " as its frame");
-      return std::make_shared<const sim::Cutout>(Premultiplied(
+      shown = std::make_shared<const sim::Cutout>(Premultiplied(
           AsRgb(AsFloat(frame.pixels)), FirstChannel(AsFloat(mask.pixels)), !frame.linear, linear_light));
+      last = k;
+      return shown;
     };
   }
 

@@ -4,6 +4,8 @@
 #include <set>
 #include <span>
 
+#include "sim/app/config/distribution.h"
+#include "sim/app/job.h"
 #include "sim/dataset/layout.h"
 #include "sim/dataset/tar.h"
 
@@ -30,20 +32,18 @@ int64_t TruthBytes(std::span<const std::string> truth, int64_t pixels) {
 
 // The farthest that a camera may be off its place, whatever is drawn.
 int MostReach_px(const ConfigFile& config) {
-  const sim::CameraParams& camera = config.fixed().camera;
-  const auto most = [&](const char* key) {
-    const Json& value = config.resolved().at("camera").at(key);
-    if (!value.is_object()) return value.get<double>();
-    return sim::kMostShake_px;
-  };
-  const Json& shake = config.resolved().at("camera").at("shake");
-  if (shake == "none") return 0;
-  if (shake == "vibration") return static_cast<int>(2 * most("amplitude_px"));
-  if (shake == "list") {
-    const cv::Size reach = sim::ShakeReach(camera);
-    return std::max(reach.width, reach.height);
+  const Json& camera = config.resolved().at("camera");
+  sim::CameraParams most = config.fixed().camera;
+  most.amplitude_px = LargestOf(camera.at("amplitude_px"));
+  most.bound_px = LargestOf(camera.at("bound_px"));
+  int reach_px = 0;
+  for (size_t i = 0; i < sim::kShakeNames.size(); ++i) {
+    most.shake = static_cast<sim::Shake>(i);
+    if (!MayBe(camera.at("shake"), sim::kShakeNames[i])) continue;
+    const cv::Size reach = sim::ShakeReach(most);
+    reach_px = std::max({reach_px, reach.width, reach.height});
   }
-  return static_cast<int>(most("bound_px"));
+  return reach_px;
 }
 
 }  // namespace
@@ -68,7 +68,10 @@ MemoryPlan PlanMemory(int64_t budget_bytes, const ConfigFile& config, int thread
   const cv::Size size = config.LargestSize();
   const int64_t clip_bytes = Pixels({size.width + surroundings_px, size.height + surroundings_px}) *
                              (kPixel_bytes + (moves ? kMovingPixel_bytes : 0));
-  const int64_t free_bytes = std::max<int64_t>(0, budget_bytes - kProgram_bytes);
+  const bool has_cutouts = std::ranges::any_of(
+      config.fixed().objects, [](const ObjectParams& object) { return !object.images.empty(); });
+  const int64_t free_bytes =
+      std::max<int64_t>(0, budget_bytes - kProgram_bytes - (has_cutouts ? kCutoutMemory_bytes : 0));
   // A quarter is for sources at least: reading one anew for each clip costs more than a thread brings.
   const int at_once = static_cast<int>(std::clamp<int64_t>(free_bytes * 3 / 4 / clip_bytes, 1, threads));
   return {.sources_bytes = std::max<int64_t>(0, free_bytes - at_once * clip_bytes), .clips_at_once = at_once};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim/app/config/config.h"
+#include "sim/app/cutout_memory.h"
 #include "sim/app/source_list.h"
 #include "sim/dataset/interrupted.h"
 #include "sim/dataset/layout.h"
@@ -16,7 +17,7 @@
 namespace shimmer::app {
 
 // Grows by one whenever the pixels of an existing config change.
-inline constexpr int kEngine = 4;
+inline constexpr int kEngine = 5;
 inline constexpr const char* kVersion = "shimmer 0.1.0";
 
 // Throws ConfigError, or std::invalid_argument if the file can't be read.
@@ -33,12 +34,16 @@ dataset::Layout LayoutOfConfig(const ConfigFile& config);
 // Of decoded pictures, unless told otherwise (PictureCache::SetBudget).
 inline constexpr uint64_t kPictureCacheBytes = 512 << 20;
 
+// Of cut-outs that are kept; beside the decoded pictures (clip_size.h).
+inline constexpr int64_t kCutoutMemory_bytes = int64_t{128} << 20;
+
 struct Job {
   ConfigFile config;
   SourceList sources;
   std::vector<SourceList> object_sources;  // of each of config.objects; of kind kDrawn where it is drawn
   std::unique_ptr<dataset::PictureCache> pictures =
       std::make_unique<dataset::PictureCache>(kPictureCacheBytes);  // that sources are read through
+  std::unique_ptr<CutoutMemory> cutouts = std::make_unique<CutoutMemory>(kCutoutMemory_bytes);
 
   // Reads the config file, applies the overrides, finds and hashes the sources (none below out, where clips
   // go). Throws as LoadConfig, ConfigError where a source pattern matches nothing, and dataset::Interrupted

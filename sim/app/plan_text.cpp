@@ -94,8 +94,11 @@ void AddBlur(const Config& config, const sim::ClipPlan& plan, std::vector<std::s
     return;
   }
   const sim::BlurPlan& blur = *plan.blur;
+  const bool varies = config.blur.max_sigma_px > config.blur.min_sigma_px;
   if (blur.constant)
     lines.push_back("sigma map: one sigma everywhere");
+  else if (!varies)
+    lines.push_back("sigma map, Perlin and tilt part: one sigma, but for the objects' distance");
   else if (!blur.noise)
     lines.push_back("sigma map, Perlin part: blur.tilt_weight is 1");
   else if (!blur.tilt)
@@ -149,8 +152,10 @@ std::vector<std::string> SkippedLines(const Config& config, const sim::ClipPlan&
     lines.push_back("all but " + std::to_string(plan.shape.frames) + " of " + std::to_string(config.frames) +
                     " frames: pairs keep no more");
   lines.push_back("source further than " + Px(plan.AroundPx()) + " from the crop");
-  lines.push_back(
-      "source, where it has it: alpha; two of three equal channels; tilt and blur of regions of one colour");
+  std::string alike = "source, where it has it: alpha";  // objects have colours, and so has a sensor's noise
+  if (plan.objects == 0 && !plan.sensor) alike += "; two of three equal channels";
+  if (!plan.sensor) alike += "; tilt and blur of regions of one colour";
+  lines.push_back(alike);
   return lines;
 }
 

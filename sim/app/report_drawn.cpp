@@ -65,17 +65,39 @@ std::string ChartOf(const Key& key, const Json& distribution, const Values& valu
   return HistogramHtml(texts, values.numbers, kind);
 }
 
+Values ValuesOf(const ReportFacts& facts, const std::string& path) {
+  const auto values = facts.drawn.find(path);
+  return values == facts.drawn.end() ? Values() : values->second;
+}
+
+std::string ObjectsHtml(const Key& list, const Json& resolved, const ReportFacts& facts);
+
 std::string ChartsOf(const Key& section, const Json& resolved, const ReportFacts& facts) {
   std::string html;
   for (const Key& key : section.keys) {
     const auto value = resolved.find(key.name());
-    if (value == resolved.end() || !value->is_object() || key.kind == Kind::kReserved) continue;
-    if (key.kind == Kind::kSection) {
+    if (value == resolved.end()) continue;
+    if (key.kind == Kind::kSection)
       html += ChartsOf(key, *value, facts);
-    } else {
-      const auto values = facts.drawn.find(key.path);
-      html += ChartOf(key, *value, values == facts.drawn.end() ? Values() : values->second);
+    else if (key.kind == Kind::kList)
+      html += ObjectsHtml(key, *value, facts);
+    else if (value->is_object())
+      html += ChartOf(key, *value, ValuesOf(facts, key.path));
+  }
+  return html;
+}
+
+std::string ObjectsHtml(const Key& list, const Json& resolved, const ReportFacts& facts) {
+  std::string html;
+  for (size_t i = 0; i < resolved.size(); ++i) {
+    const Key object = ElementOf(list, i);
+    if (const Json& chance = resolved[i].at("chance"); chance > 0 && chance < 1) {
+      const ChartTexts texts{.key = object.path + ".present",
+                             .unit = "",
+                             .notes = {"whether it is in the clip", "chance " + ValueText(chance)}};
+      html += BarsHtml(texts, RowsOf(ValuesOf(facts, texts.key), {{kChoice, {true, false}}}));
     }
+    html += ChartsOf(object, resolved[i], facts);
   }
   return html;
 }

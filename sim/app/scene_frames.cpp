@@ -1,6 +1,16 @@
 #include "sim/app/scene_frames.h"
 
 namespace shimmer::app {
+namespace {
+
+// Of floats that a file holds as halves; all other samples are a file's own already.
+sim::Rounding RoundingOf(const OutputParams& output) {
+  const dataset::Encoding encoding = EncodingOf(output);
+  if (encoding.format != dataset::FileFormat::kExr || encoding.bits != 16) return {};
+  return [encoding](cv::Mat& samples) { dataset::Quantise(samples, encoding).copyTo(samples); };
+}
+
+}  // namespace
 
 SceneFrames::SceneFrames(const Job& job, const Config& config, sim::ClipKey key,
                          const std::atomic<bool>& stop, Json& line)
@@ -13,7 +23,7 @@ SceneFrames::SceneFrames(const Job& job, const Config& config, sim::ClipKey key,
 
 void SceneFrames::Use(const sim::ClipPlan& plan) {
   plan_ = plan;
-  if (plan_.objects > 0) scene_.emplace(std::move(objects_.placed), config_.size, plan_.linear_light);
+  if (plan_.objects > 0) scene_.emplace(std::move(objects_.placed), plan_, RoundingOf(config_.output));
 }
 
 SceneFrames::Frame SceneFrames::At(int64_t t) {

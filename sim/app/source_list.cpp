@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/app/mask_pairs.h"
 #include "sim/dataset/files.h"
 #include "sim/dataset/sha256.h"
 
@@ -89,11 +90,55 @@ std::vector<Named> WithNames(const std::vector<fs::path>& paths, const fs::path&
   return named;
 }
 
-std::vector<fs::path> FindKind(SourceKind kind, std::span<const std::string> patterns,
-                               std::span<const fs::path> bases) {
+std::vector<fs::path> FindKind(SourceKind kind, const std::string& pattern, std::span<const fs::path> bases) {
+  const std::span<const std::string> patterns(&pattern, 1);
   if (kind == SourceKind::kSequence) return dataset::FindSequences(patterns, bases);
   return dataset::FindFiles(
       patterns, bases, kind == SourceKind::kImages ? dataset::FileKind::kPicture : dataset::FileKind::kVideo);
+}
+
+// What the patterns of a key mean.
+struct FoundFiles {
+  std::vector<Named> files;
+  std::vector<size_t> listed;  // of each pattern its file; empty unless each finds one, and another one
+};
+
+FoundFiles FindAll(SourceKind kind, const std::vector<std::string>& patterns, const std::string& pointer,
+                   const fs::path& config_folder, const fs::path& out) {
+  const fs::path bases[] = {config_folder, ""};
+  std::vector<fs::path> all;
+  bool one_each = true;
+  for (const std::string& pattern : patterns) {
+    try {
+      const std::vector<fs::path> found = FindKind(kind, pattern, bases);
+      one_each &= found.size() == 1;
+      all.insert(all.end(), found.begin(), found.end());
+    } catch (const std::runtime_error& error) {
+      throw ConfigError(pointer, error.what());
+    }
+  }
+  FoundFiles found{WithNames(all, config_folder, out), {}};
+  if (found.files.empty()) throw ConfigError(pointer, "finds nothing but what lies in --out " + out.string());
+  if (one_each && found.files.size() == patterns.size())
+    for (const fs::path& path : all)
+      found.listed.push_back(
+          static_cast<size_t>(std::ranges::find(found.files, path, &Named::second) - found.files.begin()));
+  return found;
+}
+
+// For each item the index of its mask: as listed, or by the names.
+std::vector<size_t> PairsOf(const FoundFiles& items, const FoundFiles& masks) {
+  if (!items.listed.empty() && items.listed.size() == masks.listed.size()) {
+    std::vector<size_t> pairs(items.listed.size());
+    for (size_t i = 0; i < pairs.size(); ++i) pairs[items.listed[i]] = masks.listed[i];
+    return pairs;
+  }
+  const auto names_of = [](const FoundFiles& found) {
+    std::vector<std::string> names;
+    for (const Named& file : found.files) names.push_back(file.first);
+    return names;
+  };
+  return PairMasks(names_of(items), names_of(masks));
 }
 
 }  // namespace
@@ -114,17 +159,7 @@ SourceList SourceList::Find(const FilePatterns& patterns, const fs::path& config
   else
     return list;
   list.hashes_ = hashes ? std::move(hashes) : std::make_shared<dataset::HashMemory>(out);
-  const fs::path bases[] = {config_folder, ""};
-  // Finds, names and hashes what the patterns of a key mean.
-  const auto add = [&](const std::vector<std::string>& of_key, const std::string& pointer, Files& files) {
-    std::vector<fs::path> found;
-    try {
-      found = FindKind(list.kind_, of_key, bases);
-    } catch (const std::runtime_error& error) {
-      throw ConfigError(pointer, error.what());
-    }
-    const std::vector<Named> named = WithNames(found, config_folder, out);
-    if (named.empty()) throw ConfigError(pointer, "finds nothing but what lies in --out " + out.string());
+  const auto add = [&](const std::vector<Named>& named, Files& files) {
     for (const auto& [name, path] : named) files.paths.push_back(path);
     if (list.kind_ == SourceKind::kVideo)
       files.videos = std::make_unique<std::vector<VideoFacts>>(files.paths.size());
@@ -132,15 +167,20 @@ SourceList SourceList::Find(const FilePatterns& patterns, const fs::path& config
     for (size_t i = 0; i < named.size(); ++i)
       list.records_.push_back({{"path", AsJson(named[i].first)}, {"sha256", sha256[i]}});
   };
-  add(*wanted, key, list.items_);
+  const FoundFiles items = FindAll(list.kind_, *wanted, key, config_folder, out);
+  add(items.files, list.items_);
   if (patterns.masks.empty()) return list;
-  const size_t items = list.items_.paths.size();
-  add(patterns.masks, section + "/masks", list.masks_);
-  if (list.masks_.paths.size() != items)
-    throw ConfigError(section + "/masks", "finds " + std::to_string(list.masks_.paths.size()) +
-                                              ", must find one for each of the " + std::to_string(items) +
-                                              " of " + key);
-  for (size_t i = 0; i < items; ++i) list.records_[items + i]["mask_of"] = list.records_[i]["path"];
+  const std::string masks_key = section + "/masks";
+  const FoundFiles masks = FindAll(list.kind_, patterns.masks, masks_key, config_folder, out);
+  std::vector<Named> paired;
+  try {
+    for (const size_t mask : PairsOf(items, masks)) paired.push_back(masks.files[mask]);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(masks_key, error.what() + std::string(" (") + key + ")");
+  }
+  add(paired, list.masks_);
+  for (size_t i = 0; i < paired.size(); ++i)
+    list.records_[paired.size() + i]["mask_of"] = list.records_[i]["path"];
   return list;
 }
 

@@ -26,7 +26,8 @@ class SourceList {
   // Relative patterns are looked up below config_folder, then below the working directory. What lies below
   // out, where clips go, is no source. Files are hashed on all threads, but for those that out remembers from
   // an earlier run. section: where the patterns stand in the config; hashes: shared by all lists of a run.
-  // Throws ConfigError where nothing matches, or where there are not as many masks as what they are of;
+  // Masks go with what they are of in the order of the patterns, where each of these finds one, else by their
+  // names (mask_pairs.h). Throws ConfigError where nothing matches, or where a mask has no like;
   // dataset::Interrupted once stop is set.
   static SourceList Find(const FilePatterns& patterns, const std::filesystem::path& config_folder,
                          const std::filesystem::path& out,

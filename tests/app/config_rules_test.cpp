@@ -48,6 +48,18 @@ TEST(ConfigRules, SigmasAreOrderedWhateverIsDrawn) {
               StartsWith("/blur/min_sigma_px: "));
 }
 
+TEST(ConfigRules, SidesAreThoseThatH264Knows) {
+  const auto error_of = [](const std::string& size, const std::string& compression) {
+    return ErrorOf(WithSource("\"size\": " + size + R"(, "sensor": {"compression": )" + compression + "}"));
+  };
+  EXPECT_EQ(error_of("[16384, 16]", R"("h264")"), "no error");
+  EXPECT_EQ(error_of("[16385, 16]", R"("h264")"),
+            "/size: is up to 16385x16, must be at most 16384 px each way where sensor.compression is h264");
+  EXPECT_THAT(error_of(R"({"choice": [[64, 64], [16, 16385]]})", R"({"choice": ["none", "h264"]})"),
+              StartsWith("/size: is up to 64x16385, "));
+  EXPECT_EQ(error_of("[16385, 16]", R"({"choice": ["none", "jpeg"]})"), "no error");
+}
+
 TEST(ConfigRules, BitsFitTheFormat) {
   const auto bits = [](const std::string& output) {
     return ConfigFile::Parse(WithSource("\"output\": {" + output + "}")).resolved()["output"]["bits"];

@@ -76,6 +76,8 @@ TEST(Config, UnknownKeysNameTheLikelyOne) {
   EXPECT_THAT(ErrorOf(WithSource(R"("Seed": 5)")), HasSubstr("did you mean 'seed'?"));
   EXPECT_THAT(ErrorOf(WithSource(R"("color": "linear")")), HasSubstr("did you mean 'colour'?"));
   EXPECT_THAT(ErrorOf(WithSource(R"("strength_px": 5)")), HasSubstr("did you mean 'tilt.strength_px'?"));
+  EXPECT_THAT(ErrorOf(WithSource(R"("tilt": {"colour": "linear"})")),
+              HasSubstr("did you mean 'colour' of the config itself?"));
   EXPECT_THAT(ErrorOf(WithSource(R"("accuracy": {"zebra": 5})")),
               HasSubstr("unknown key 'zebra'; must be 'max_error_px' or 'max_error_levels'"));
   EXPECT_THAT(ErrorOf(WithSource(R"("a/b\n~": 5)")),

@@ -176,5 +176,33 @@ TEST(Reports, SumBytesWhereTheManifestHasThem) {
   EXPECT_THAT(ReportOf(folder, "set"), HasSubstr("<b>6 GB</b><span>on disk</span>"));
 }
 
+// Of each object what it has drawn, and whether it is there.
+TEST(Reports, ShowWhatObjectsHaveDrawn) {
+  const TempFolder folder;
+  folder.Put("c.json", SmallConfig({{"clips", 20},
+                                    {"objects",
+                                     {{{"drawn", "disc"}, {"height_px", 9}},
+                                      {{"drawn", {{"choice", {"box", "walker"}}}},
+                                       {"chance", 0.5},
+                                       {"height_px", {{"uniform", {5, 9}}}},
+                                       {"motion", {{"speed_px", {{"uniform", {0, 1}}}}}}}}}}));
+  ExpectDone(Generate(folder, "c.json", "set"));
+  std::map<std::string, std::vector<Json>> values;
+  for (const Json& line : ManifestLines(folder / "set"))
+    for (const auto& [key, value] : line["drawn"].items()) values[key].push_back(value);
+  const auto charts = ChartsIn(ReportOf(folder, "set"));
+  for (const char* key :
+       {"objects.1.drawn", "objects.1.present", "objects.1.height_px", "objects.1.motion.speed_px"}) {
+    SCOPED_TRACE(key);
+    ASSERT_EQ(values[key].size(), 20u);
+    ASSERT_TRUE(charts.contains(key));
+    ExpectShows(charts.at(key), values[key]);
+  }
+  EXPECT_FALSE(charts.contains("objects.0.present"));
+  int64_t present = 0;
+  for (const Json& value : values["objects.1.present"]) present += value.get<bool>();
+  EXPECT_EQ(charts.at("objects.1.present").bars.at("true"), present);
+}
+
 }  // namespace
 }  // namespace shimmer::app

@@ -38,38 +38,68 @@ struct Options {
 struct Case {
   const char* name;
   int side_px;
-  int clips, warm_up;  // the clock starts once so many are done: every source is decoded by then
-  Json output;         // section output of the config
+  int clips, warm_up;           // the clock starts once so many are done: every source is decoded by then
+  Json output;                  // section output of the config
+  Json scene = Json::object();  // further sections
 };
+
+const Json kShake = {{"shake", "drift"}, {"amplitude_px", 4}, {"bound_px", 16}};
+const Json kObjects = {{{"drawn", "box"},
+                        {"height_px", 48},
+                        {"shutter", 0.5},
+                        {"motion", {{"start_x", 0.3}, {"start_y", 0.7}, {"speed_px", 3}}}},
+                       {{"drawn", "walker"},
+                        {"height_px", 80},
+                        {"distance", 0.8},
+                        {"motion", {{"start_x", 0.7}, {"start_y", 0.6}, {"direction_deg", 180}}}}};
+const Json kSensor = {{"veil", 0.1}, {"full_well", 5000}, {"read_noise", 5}};
+const Json kMoving = {{"camera", kShake}, {"objects", kObjects}};
 
 const std::vector<Case> kCases = {
     {"256x256", 256, 1200, 200, Json::object()},
     {"256x256, truth", 256, 300, 100, {{"truth", {"tilt", "sigma"}}}},
     {"256x256, webdataset", 256, 1200, 200, {{"layout", "webdataset"}}},
     {"256x256, png_writer openimageio", 256, 400, 100, {{"png_writer", "openimageio"}}},
+    {"256x256, shake", 256, 400, 100, Json::object(), {{"camera", kShake}}},
+    {"256x256, two objects", 256, 400, 100, Json::object(), {{"objects", kObjects}}},
+    {"256x256, sensor", 256, 400, 100, Json::object(), {{"sensor", kSensor}}},
+    {"256x256, shake, two objects, their truth",
+     256,
+     300,
+     100,
+     {{"truth", {"mask", "flow", "shake"}}},
+     kMoving},
     {"1024x1024", 1024, 100, 40, Json::object()},
     {"1024x1024, truth", 1024, 60, 30, {{"truth", {"tilt", "sigma"}}}},
+    {"1024x1024, shake, two objects, their truth",
+     1024,
+     60,
+     30,
+     {{"truth", {"mask", "flow", "shake"}}},
+     kMoving},
 };
 
 constexpr int kFrames = 16, kQuickFrames = 2;
 
 // The training config of docs/formats.md.
 Json ConfigOf(const Case& one, const Options& options) {
-  return {{"seed", 7},
-          {"clips", options.quick ? 4 : one.clips},
-          {"frames", options.quick ? kQuickFrames : kFrames},
-          {"size", options.quick ? Json{48, 48} : Json{one.side_px, one.side_px}},
-          {"source",
-           {{"images", options.pictures},
-            {"scale", {{"uniform", {0.5, 1}}}},
-            {"crop", "random"},
-            {"flip", true}}},
-          {"tilt",
-           {{"strength_px", {{"uniform", {1, 10}}}},
-            {"base_frequency", {{"uniform", {0.015, 0.06}}}},
-            {"temporal_scale", {{"uniform", {0.5, 4}}}}}},
-          {"blur", {{"max_sigma_px", {{"uniform", {0.5, 6}}}}}},
-          {"output", one.output}};
+  Json config = {{"seed", 7},
+                 {"clips", options.quick ? 4 : one.clips},
+                 {"frames", options.quick ? kQuickFrames : kFrames},
+                 {"size", options.quick ? Json{48, 48} : Json{one.side_px, one.side_px}},
+                 {"source",
+                  {{"images", options.pictures},
+                   {"scale", {{"uniform", {0.5, 1}}}},
+                   {"crop", "random"},
+                   {"flip", true}}},
+                 {"tilt",
+                  {{"strength_px", {{"uniform", {1, 10}}}},
+                   {"base_frequency", {{"uniform", {0.015, 0.06}}}},
+                   {"temporal_scale", {{"uniform", {0.5, 4}}}}}},
+                 {"blur", {{"max_sigma_px", {{"uniform", {0.5, 6}}}}}},
+                 {"output", one.output}};
+  config.update(one.scene);
+  return config;
 }
 
 // A folder that is gone afterwards, and not before: a file system may search long for inodes of new files

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/sim/pictures.h"
+
 namespace shimmer::sim {
 namespace {
 
@@ -96,6 +98,18 @@ TEST(Cutout, WhatIsNoCutout) {
   EXPECT_THROW(Cutout(cv::Mat()), std::invalid_argument);
   EXPECT_THROW(Cutout(cv::Mat(2, 2, CV_32FC3)), std::invalid_argument);
   EXPECT_TRUE(Cutout(RandomCutout({3, 3})).Draw(0, {}).area.empty());
+}
+
+TEST(Cutout, APartOfALayerIsAPartOfIt) {
+  const Cutout cutout(RandomCutout({9, 6}));
+  const Pose pose{.centre = {4.3, 5.4}, .turns = 0.07};
+  const Layer whole = cutout.Draw(13, pose);
+  for (const cv::Rect within : {cv::Rect(3, 2, 5, 4), cv::Rect(-100, -100, 106, 110), whole.area}) {
+    const Layer part = cutout.Draw(13, pose, within);
+    EXPECT_EQ(part.area, whole.area & within);
+    EXPECT_TRUE(SameBytes(part.rgba, whole.rgba(part.area - whole.area.tl())));
+  }
+  EXPECT_TRUE(cutout.Draw(13, pose, {500, 0, 9, 9}).area.empty());
 }
 
 }  // namespace

@@ -109,5 +109,21 @@ TEST(Motion, APathThatLeavesTheFrameIsRefusedShiftedOrAllowed) {
             "leaves the scene: its path is (205.0, 0.0) px wide and high, must be within 200x100 px");
 }
 
+TEST(Motion, KnowsWhetherItBeginsToTheLeft) {
+  const auto begins_left = [](MotionParams params) {
+    params.off_frame = OffFrame::kAllow;
+    return Motion(params, kFrame, 9).BeginsLeftward();
+  };
+  for (const double degrees : {180.0, 91.0, -91.0, 269.0, -180.0})
+    EXPECT_TRUE(begins_left({.direction_deg = degrees})) << degrees;
+  for (const double degrees : {0.0, 89.0, 90.0, -90.0, 270.0, 360.0})
+    EXPECT_FALSE(begins_left({.direction_deg = degrees})) << degrees;
+  EXPECT_FALSE(begins_left({.speed_px = 0, .direction_deg = 180}));
+  EXPECT_TRUE(begins_left({.path = PathKind::kSway, .direction_deg = 180}));
+  EXPECT_TRUE(begins_left({.path = PathKind::kArc, .direction_deg = 180, .radius_px = -30}));
+  EXPECT_TRUE(begins_left({.path = PathKind::kSpline, .points = {{0.9, 0.1}, {0.2, 0.5}}}));
+  EXPECT_FALSE(begins_left({.path = PathKind::kSpline, .points = {{0.1, 0.1}, {0.2, 0.5}}}));
+}
+
 }  // namespace
 }  // namespace shimmer::sim

@@ -13,6 +13,8 @@ namespace {
 const cv::Size kSize{160, 90};
 const cv::Vec3f kColour(0.9f, 0.3f, 0.1f);
 
+ClipPlan Plan() { return PlanClip({.objects = 1}, {.size = kSize, .frames = 20}, {}); }
+
 PlacedObject Disc(double x, double y, double speed_px, double height_px, double distance = 1,
                   double shutter = 0) {
   return {MovingObject(DrawnLook{Shape::kDisc, kColour},
@@ -29,7 +31,7 @@ PlacedObject Disc(double x, double y, double speed_px, double height_px, double 
 TEST(MovingScene, TheMaskOfADiscHasItsArea) {
   for (const double radius_px : {0.8, 3.3, 12.0, 31.7})
     for (const int64_t k : {0, 3}) {
-      const MovingScene scene({Disc(0.47, 0.51, 0.37, 2 * radius_px)}, kSize, false);
+      const MovingScene scene({Disc(0.47, 0.51, 0.37, 2 * radius_px)}, Plan());
       const cv::Mat mask = scene.At(k).Mask();
       const cv::Point2d middle =
           cv::Point2d(0.47 * 160 - 0.5, 0.51 * 90 - 0.5) +
@@ -51,7 +53,7 @@ TEST(MovingScene, TheMaskOfADiscHasItsArea) {
 }
 
 TEST(MovingScene, FlowIsThatOfTheNearestAndNothingElsewhere) {
-  const MovingScene scene({Disc(0.5, 0.5, 2, 40), Disc(0.5, 0.5, 5, 20)}, kSize, false);
+  const MovingScene scene({Disc(0.5, 0.5, 2, 40), Disc(0.5, 0.5, 5, 20)}, Plan());
   const MovingScene::Frame frame = scene.At(0);
   const cv::Mat flow = frame.Flow(), mask = frame.Mask();
   EXPECT_EQ(flow.at<cv::Vec2f>(2, 2), cv::Vec2f(0, 0));
@@ -76,8 +78,7 @@ TEST(ComposedFrames, AreThoseThatAreComposedAlone) {
         SinesPicture(kSize, plan.AroundPx(), channels).convertTo(background, depth, depth == CV_8U ? 255 : 1);
         background.colRange(0, 140).setTo(cv::Scalar::all(0));  // constant, but for what moves over it
         const cv::Mat before = background.clone();
-        const MovingScene moving({Disc(0.1, 0.4, 7, 30, 1, 0.5), Disc(0.3, 0.6, 4, 11)}, kSize,
-                                 plan.linear_light);
+        const MovingScene moving({Disc(0.1, 0.4, 7, 30, 1, 0.5), Disc(0.3, 0.6, 4, 11)}, plan);
         const cv::Point origin(-plan.AroundPx(), -plan.AroundPx());
         ComposedFrames frames(background, origin, plan);
         for (const int64_t k : {0, 1, 5, 2}) {
@@ -102,13 +103,13 @@ TEST(MovingScene, ItsDistanceScalesTheTurbulenceWhereItIsSeen) {
   const cv::Rect area(-border_px, -border_px, kSize.width + 2 * border_px, kSize.height + 2 * border_px);
   const cv::Mat clean = SinesPicture(kSize, plan.AroundPx());
   const auto render = [&](double distance, const ClipRenderer& by) {
-    const MovingScene moving({Disc(0.5, 0.5, 1, 50, distance)}, kSize, false);
+    const MovingScene moving({Disc(0.5, 0.5, 1, 50, distance)}, Plan());
     RenderedFrame frame;
     by.Render(0, by.Prepare(clean), true, frame, {.strength = moving.At(0).Strength(area, {})});
     return frame;
   };
   const RenderedFrame half = render(0.5, renderer), none = render(0, renderer), full = render(1, renderer);
-  const cv::Mat mask = MovingScene({Disc(0.5, 0.5, 1, 50)}, kSize, false).At(0).Mask();
+  const cv::Mat mask = MovingScene({Disc(0.5, 0.5, 1, 50)}, Plan()).At(0).Mask();
   for (int y = 0; y < kSize.height; ++y)
     for (int x = 0; x < kSize.width; ++x) {
       const float factor = 1 - 0.5f * mask.at<float>(y, x);
@@ -132,7 +133,7 @@ TEST(MovingScene, ItsDistanceScalesTheTurbulenceWhereItIsSeen) {
 
 // Where the object is seen in the shaken frame: at p + s.
 TEST(MovingScene, StrengthFollowsTheShake) {
-  const MovingScene moving({Disc(0.5, 0.5, 1, 30, 0)}, kSize, false);
+  const MovingScene moving({Disc(0.5, 0.5, 1, 30, 0)}, Plan());
   const cv::Rect area({-3, -2}, kSize);
   const auto middle_of = [&](cv::Point2d shake_px) {
     const cv::Mat strength = moving.At(0).Strength(area, shake_px);
@@ -147,6 +148,44 @@ TEST(MovingScene, StrengthFollowsTheShake) {
   };
   for (const cv::Point2d shake_px : {cv::Point2d(0, 0), cv::Point2d(5, -3), cv::Point2d(-2.25, 7.6)})
     EXPECT_LT(cv::norm(middle_of(shake_px) - cv::Point2d(79.5, 44.5) - shake_px), 1e-3) << shake_px;
+}
+
+// A file of half floats holds what was simulated, also where something was composed into it.
+TEST(MovingScene, RoundsWhatItComposesAndNothingElse) {
+  const auto to_tenths = [](cv::Mat& samples) {
+    for (int y = 0; y < samples.rows; ++y)
+      for (int x = 0; x < samples.cols * samples.channels(); ++x)
+        samples.ptr<float>(y)[x] = std::round(samples.ptr<float>(y)[x] * 10) / 10;
+  };
+  const MovingScene moving({Disc(0.5, 0.5, 1, 30.3)}, Plan(), to_tenths);
+  const cv::Mat background = SinesPicture(kSize, 0);
+  cv::Mat samples = background.clone();
+  const cv::Rect changed = moving.At(0).Over(samples, {}).at(0);
+  const cv::Mat tenths = samples.clone();
+  cv::Mat composed = tenths(changed);
+  to_tenths(composed);
+  EXPECT_TRUE(SameBytes(samples, tenths));
+  for (int y = 0; y < kSize.height; ++y)
+    for (int x = 0; x < kSize.width; ++x)
+      if (!changed.contains({x, y})) {
+        EXPECT_EQ(samples.at<cv::Vec3f>(y, x), background.at<cv::Vec3f>(y, x));
+      }
+}
+
+// An object larger than any picture, and one that shrinks to nothing, cost what is seen of them.
+TEST(MovingScene, TakesNoMoreOfAnObjectThanIsSeen) {
+  const auto growing = [](const Look& look, double rate) {
+    return PlacedObject{
+        MovingObject(look, {.scale_rate = rate, .off_frame = OffFrame::kAllow}, kSize, 100000, 8192, 0)};
+  };
+  const Look white = std::make_shared<const Cutout>(cv::Mat(7, 5, CV_32FC4, cv::Scalar::all(1)));
+  for (const Look& look : {Look(DrawnLook{Shape::kDisc, kColour}), white}) {
+    const cv::Mat covered = MovingScene({growing(look, 2)}, Plan()).At(99999).Mask();
+    EXPECT_EQ(cv::countNonZero(covered == 1), kSize.area());
+    EXPECT_LT(cv::sum(MovingScene({growing(look, 0.5)}, Plan()).At(99999).Mask())[0], 1e-3);
+  }
+  const cv::Rect area(-3, 5, 20, 30);
+  EXPECT_EQ(growing(white, 2).object.At(99999, area).area, area);
 }
 
 }  // namespace

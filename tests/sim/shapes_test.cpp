@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
+
+#include "tests/sim/pictures.h"
 
 namespace shimmer::sim {
 namespace {
@@ -118,6 +121,35 @@ TEST(Shapes, AWalkerIsOneHighAndComesBackAfterAStride) {
   EXPECT_NEAR(bottom - top, 1, 0.03);
   const auto parts = PartsOf(Shape::kWalker, 0.3, kColour), later = PartsOf(Shape::kWalker, 1.3, kColour);
   for (size_t i = 0; i < parts.size(); ++i) EXPECT_NEAR(cv::norm(parts[i].b - later[i].b), 0, 1e-12);
+}
+
+// Within an area: the same pixels as of the whole.
+TEST(Shapes, APartOfALayerIsAPartOfIt) {
+  const auto car = PartsOf(Shape::kBox, 0, kColour);
+  const Pose pose{.centre = {11.3, 7.9}, .scale = 1.1, .turns = 0.07};
+  const Layer whole = DrawParts(car, 20, pose);
+  for (const cv::Rect within : {cv::Rect(3, 2, 15, 9), cv::Rect(-100, -100, 105, 110), whole.area}) {
+    const Layer part = DrawParts(car, 20, pose, within);
+    EXPECT_EQ(part.area, whole.area & within);
+    EXPECT_TRUE(SameBytes(part.rgba, whole.rgba(part.area - whole.area.tl())));
+  }
+  EXPECT_TRUE(DrawParts(car, 20, pose, {1000, 0, 5, 5}).area.empty());
+  EXPECT_TRUE(DrawParts(car, 20, pose, {}).area.empty());
+}
+
+TEST(Shapes, MirroredHeadsTheOtherWay) {
+  for (const Shape shape : {Shape::kBox, Shape::kDisc, Shape::kWalker}) {
+    const auto picture_of = [](const std::vector<ShapePart>& parts) {
+      const Layer layer = DrawParts(parts, 40, {.centre = {50, 50}});
+      cv::Mat picture = cv::Mat::zeros(101, 101, CV_32FC4);
+      layer.rgba.copyTo(picture(layer.area));
+      return picture;
+    };
+    const auto parts = PartsOf(shape, 0.15, kColour);
+    cv::Mat flipped;
+    cv::flip(picture_of(Mirrored(parts)), flipped, 1);
+    EXPECT_LT(cv::norm(flipped, picture_of(parts), cv::NORM_INF), 1e-5);  // but for a double's rounding
+  }
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ namespace {
 constexpr int kExrBits = 16;  // where the config does not say; half is what most tools read
 
 Json Checked(const Key& key, const Json& value) {
-  const bool drawn = value.is_object() && key.kind != Kind::kReserved;
-  return drawn ? CheckedDistribution(key, value, key.pointer) : CheckedLiteral(key, value, key.pointer);
+  return value.is_object() ? CheckedDistribution(key, value, key.pointer)
+                           : CheckedLiteral(key, value, key.pointer);
 }
 
 Json Resolved(const Key& section, const Json& given);
@@ -60,7 +60,7 @@ void DrawAll(const Key& section, sim::ClipKey clip, Json& values, Json& drawn) {
     const auto value = values.find(key.name());
     if (key.kind == Kind::kList)
       for (size_t i = 0; i < value->size(); ++i) DrawAll(ElementOf(key, i), clip, (*value)[i], drawn);
-    if (value == values.end() || !value->is_object() || key.kind == Kind::kReserved) continue;
+    if (value == values.end() || !value->is_object()) continue;
     if (key.kind == Kind::kSection)
       DrawAll(key, clip, *value, drawn);
     else
@@ -86,14 +86,7 @@ ConfigFile ConfigFile::Parse(const std::string& text, std::span<const std::strin
 }
 
 cv::Size ConfigFile::LargestSize() const {
-  const Json& size = resolved_.at(KeyOf(DefaultConfig().size).name());
-  if (!size.is_object()) return fixed_.size;
-  cv::Size largest;
-  for (const Json& one : size.at(kChoice)) {
-    largest.width = std::max(largest.width, one.at(0).get<int>());
-    largest.height = std::max(largest.height, one.at(1).get<int>());
-  }
-  return largest;
+  return LargestSizeOf(resolved_.at(KeyOf(DefaultConfig().size).name()));
 }
 
 Config ConfigFile::Draw(uint64_t clip, Json* drawn) const {

@@ -164,6 +164,22 @@ Support SupportOf(const Json& value) {
   return {*low, *high};
 }
 
+double LargestOf(const Json& value) { return SupportOf(value).high; }
+
+cv::Size LargestSizeOf(const Json& value) {
+  cv::Size largest;
+  for (const Json& size : value.is_object() ? value.at(kChoice) : Json::array({value})) {
+    largest.width = std::max(largest.width, size.at(0).get<int>());
+    largest.height = std::max(largest.height, size.at(1).get<int>());
+  }
+  return largest;
+}
+
+bool MayBe(const Json& value, const std::string& name) {
+  if (!value.is_object()) return value == name;
+  return std::ranges::find(value.at(kChoice), Json(name)) != value.at(kChoice).end();
+}
+
 Json DrawFrom(const Key& key, const Json& distribution, sim::ClipKey clip) {
   const std::string path = distribution.value(kAs, key.path);
   if (distribution.contains(kChoice)) {

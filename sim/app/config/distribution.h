@@ -53,6 +53,15 @@ struct Support {
 };
 Support SupportOf(const Json& value);
 
+// The greatest of them.
+double LargestOf(const Json& value);
+
+// The greatest width and the greatest height of a checked size, or choice of sizes.
+cv::Size LargestSizeOf(const Json& value);
+
+// Whether a checked value, drawn or not, may be this name.
+bool MayBe(const Json& value, const std::string& name);
+
 // One value, by the clip and the key's path alone. distribution: checked.
 Json DrawFrom(const Key& key, const Json& distribution, sim::ClipKey clip);
 

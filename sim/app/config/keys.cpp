@@ -105,10 +105,6 @@ class KeyLister {
     Struct::Fields(element, lister);
   }
 
-  void Reserved(const char* name, const Json& empty, const char* help) {
-    Add({.name = name, .help = help, .per_clip = false}, Kind::kReserved).fallback = empty;
-  }
-
  private:
   Key& Add(const Field& field, Kind kind) {
     const std::string name = field.name;
@@ -146,8 +142,6 @@ class Filler {
       Struct::Fields(list[i], filler);
     }
   }
-
-  void Reserved(const char*, const Json&, const char*) const {}
 
  private:
   const Json& values_;
@@ -219,7 +213,8 @@ ConfigError NoSuchKey(const Key& section, const std::string& name) {
   const std::vector<std::string> names = KeyNames(section);
   const Key* elsewhere = Find(AllKeys(), [&](const Key& key) { return key.name() == name; });
   if (elsewhere && Closest(name, names).empty())
-    return {pointer, "unknown key '" + name + "'; did you mean '" + elsewhere->path + "'?"};
+    return {pointer, "unknown key '" + name + "'; did you mean '" + elsewhere->path + "'" +
+                         (elsewhere->path == name ? " of the config itself?" : "?")};
   return {pointer, UnknownKey(name, names)};
 }
 

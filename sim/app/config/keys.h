@@ -11,9 +11,8 @@
 namespace shimmer::app {
 
 enum class Kind {
-  kSection,   // an object of further keys
-  kList,      // a list of such objects
-  kReserved,  // nothing but its fallback, in this version
+  kSection,  // an object of further keys
+  kList,     // a list of such objects
   kReal,
   kInteger,
   kFlag,    // true or false

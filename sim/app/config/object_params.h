@@ -28,28 +28,7 @@ struct ObjectParams : FilePatterns {
                 .help = "an object that needs no data: a car of boxes, a ball, a walking figure, letters",
                 .alternative = true},
           self.drawn);
-    visit(Field{.name = "images",
-                .low = 1,
-                .help = "file, folder or glob of pictures with alpha, or a list of them; a clip draws one",
-                .per_clip = false,
-                .alternative = true},
-          self.images);
-    visit(Field{.name = "video",
-                .low = 1,
-                .help = "videos that show it, one a clip; `masks` says where",
-                .per_clip = false,
-                .alternative = true},
-          self.video);
-    visit(Field{.name = "sequence",
-                .low = 1,
-                .help = "the same as folders of frames",
-                .per_clip = false,
-                .alternative = true},
-          self.sequence);
-    visit(Field{.name = "masks",
-                .help = "as many videos or sequences, in the same order of names: white where the object is",
-                .per_clip = false},
-          self.masks);
+    FilePatterns::Fields(self, visit);
     visit(Field{.name = "text", .low = 1, .high = 100, .help = "drawn text: what it says"}, self.text);
     visit(Field{.name = "chance", .low = 0, .high = 1, .help = "the share of the clips that it is in"},
           self.chance);

@@ -5,17 +5,15 @@
 #include "sim/app/config/distribution.h"
 #include "sim/app/config/keys.h"
 #include "sim/app/config/rules.h"
+#include "sim/dataset/compression.h"
 #include "sim/motion.h"
+#include "sim/size_text.h"
 
 namespace shimmer::app {
 namespace {
 
-// Whether a value, drawn or not, may be this name.
-bool MayBe(const Json& resolved, const Key& key, const std::string& name) {
-  const Json& value = resolved.at(Json::json_pointer(key.pointer));
-  if (!value.is_object()) return value == name;
-  const Json& options = value.at(kChoice);
-  return std::find(options.begin(), options.end(), name) != options.end();
+const Json& ValueOf(const Json& resolved, const Key& key) {
+  return resolved.at(Json::json_pointer(key.pointer));
 }
 
 // Layouts that keep single frames of a clip.
@@ -26,7 +24,7 @@ bool KeepsSingleFrames(const Config& fixed) {
 void CheckCamera(const Json& resolved, const Config& fixed) {
   const sim::CameraParams& camera = DefaultConfig().camera;
   const auto shifts = std::ssize(fixed.camera.shifts);
-  if (MayBe(resolved, KeyOf(camera.shake), "list") && shifts < fixed.frames)
+  if (MayBe(ValueOf(resolved, KeyOf(camera.shake)), "list") && shifts < fixed.frames)
     throw ConfigError(KeyOf(camera.shifts).pointer, "has " + std::to_string(shifts) +
                                                         " shifts, must have one for each of the " +
                                                         std::to_string(fixed.frames) + " frames where " +
@@ -79,11 +77,17 @@ void CheckTruth(const Config& fixed) {
   }
 }
 
-// A stream is made of all frames.
+// A stream is made of all frames, and has the sides that its encoder knows.
 void CheckCompression(const Json& resolved, const Config& fixed) {
   const Key& key = KeyOf(DefaultConfig().sensor.compression);
-  if (MayBe(resolved, key, "h264") && KeepsSingleFrames(fixed) &&
-      fixed.output.frames_per_clip != fixed.frames)
+  if (!MayBe(ValueOf(resolved, key), "h264")) return;
+  const Key& size = KeyOf(DefaultConfig().size);
+  if (const cv::Size largest = LargestSizeOf(ValueOf(resolved, size));
+      std::max(largest.width, largest.height) > dataset::kMaxH264Side_px)
+    throw ConfigError(size.pointer, "is up to " + sim::SizeText(largest) + ", must be at most " +
+                                        std::to_string(dataset::kMaxH264Side_px) + " px each way where " +
+                                        key.path + " is h264");
+  if (KeepsSingleFrames(fixed) && fixed.output.frames_per_clip != fixed.frames)
     throw ConfigError(key.pointer,
                       "is h264, which takes all frames of a clip: must be none or jpeg where "
                       "output.frames_per_clip keeps " +

@@ -46,11 +46,6 @@ Schema TextsSchema(const Key& key) {
   return {{"oneOf", Schema::array({text, list})}};
 }
 
-Schema ReservedSchema(const Key& key) {
-  return key.fallback.is_array() ? Schema{{"type", "array"}, {"maxItems", 0}}
-                                 : Schema{{"type", "object"}, {"maxProperties", 0}};
-}
-
 Schema LiteralSchema(const Key& key) {
   switch (key.kind) {
     case Kind::kSection:
@@ -58,8 +53,6 @@ Schema LiteralSchema(const Key& key) {
       break;
     case Kind::kPoints:
       return {{"type", "array"}, {"items", ListOf(NumberSchema(key, "number"), 2)}};
-    case Kind::kReserved:
-      return ReservedSchema(key);
     case Kind::kReal:
       return NumberSchema(key, "number");
     case Kind::kInteger:

@@ -19,29 +19,19 @@ struct FilePatterns {
   std::vector<std::string> images;    // folders, files or globs of stills
   std::vector<std::string> video;     // files or globs of videos
   std::vector<std::string> sequence;  // folders of numbered frames, or printf patterns (frame%04d.png)
-  std::vector<std::string> masks;     // of the videos or sequences, in the same order
+  std::vector<std::string> masks;     // of the videos or sequences: listed in their order, or named like them
 
   bool FromFiles() const { return !images.empty() || !video.empty() || !sequence.empty(); }
-};
-
-// Where clean frames come from: exactly one of images, video, sequence, drawn.
-struct SourceParams : FilePatterns {
-  std::string drawn;  // a scene of sim/drawn/drawn.h; empty: none
-  double scale = 1;
-  Crop crop = Crop::kRandom;
-  bool flip = false;
-  Start start = Start::kRandom;
-  double mask_threshold = 0;
 
   template <class Self, class Visitor>
   static void Fields(Self& self, Visitor& visit) {
-    visit(
-        Field{.name = "images",
-              .low = 1,
-              .help = "folder, file or glob of still images, a .txt with one such a line, or a list of these",
-              .per_clip = false,
-              .alternative = true},
-        self.images);
+    visit(Field{.name = "images",
+                .low = 1,
+                .help = "folder, file or glob of still images (of an object: with alpha), a .txt with one "
+                        "such a line, or a list of these; a clip takes one",
+                .per_clip = false,
+                .alternative = true},
+          self.images);
     visit(Field{.name = "video",
                 .low = 1,
                 .help = "video file or glob, a .txt with one such a line, or a list of these",
@@ -55,6 +45,26 @@ struct SourceParams : FilePatterns {
                 .per_clip = false,
                 .alternative = true},
           self.sequence);
+    visit(Field{.name = "masks",
+                .help = "what moves in `video` or `sequence`, white: one for each, listed in their order or "
+                        "named like them; output.truth `mask` shows it",
+                .per_clip = false},
+          self.masks);
+  }
+};
+
+// Where clean frames come from: exactly one of images, video, sequence, drawn.
+struct SourceParams : FilePatterns {
+  std::string drawn;  // a scene of sim/drawn/drawn.h; empty: none
+  double scale = 1;
+  Crop crop = Crop::kRandom;
+  bool flip = false;
+  Start start = Start::kRandom;
+  double mask_threshold = 0;
+
+  template <class Self, class Visitor>
+  static void Fields(Self& self, Visitor& visit) {
+    FilePatterns::Fields(self, visit);
     visit(Field{.name = "drawn",
                 .names = {sim::kDrawnSceneNames.begin(), sim::kDrawnSceneNames.end()},
                 .help = "a scene that needs no data",
@@ -79,12 +89,6 @@ struct SourceParams : FilePatterns {
                 .help = "which frame of a video or sequence is frame 0",
                 .per_clip = false},
           self.start);
-    visit(Field{.name = "masks",
-                .help =
-                    "what moves in `video` or `sequence`: as many videos or sequences, in the same order of "
-                    "names, white where something moves; output.truth `mask` shows it",
-                .per_clip = false},
-          self.masks);
     visit(Field{.name = "mask_threshold",
                 .low = 0,
                 .high = 1,

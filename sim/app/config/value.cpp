@@ -112,11 +112,6 @@ Json CheckedPoints(const Key& key, const Json& value, const std::string& pointer
   return checked;
 }
 
-Json CheckedReserved(const Key& key, const Json& value, const std::string& pointer) {
-  if (value != key.fallback) throw Wrong(value, pointer, Wanted(key));
-  return value;
-}
-
 }  // namespace
 
 std::string Wanted(const Key& key) {
@@ -127,8 +122,6 @@ std::string Wanted(const Key& key) {
       return "a list of at most " + key.high.dump() + " objects";
     case Kind::kPoints:
       return "a list of [x, y], numbers " + key.allowed;
-    case Kind::kReserved:
-      return "empty in this version: " + key.fallback.dump();
     case Kind::kReal:
       return NumberInWords(key, "a number");
     case Kind::kInteger:
@@ -155,8 +148,6 @@ Json CheckedLiteral(const Key& key, const Json& value, const std::string& pointe
       throw std::logic_error("CheckedLiteral: a section is no literal");
     case Kind::kPoints:
       return CheckedPoints(key, value, pointer);
-    case Kind::kReserved:
-      return CheckedReserved(key, value, pointer);
     case Kind::kReal:
       return CheckedReal(key, value, pointer);
     case Kind::kInteger:
