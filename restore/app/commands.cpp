@@ -18,9 +18,13 @@ int RunUnshimmer(int argc, const char* const* argv, const std::atomic<bool>& (*l
   compare_command->add_option("A", compare.a, source)->required();
   compare_command->add_option("B", compare.b, "what A should be: as many frames of the same size, or one")
       ->required();
-  compare_command->add_option(
-      "--mask", compare.mask,
-      "what moves is white here: frames as those of A, or one. Left out of stability");
+  CLI::Option* iou = compare_command->add_flag(
+      "--iou", compare.are_masks,
+      "A and B are masks, what moves is white: print IoU, precision and recall of A against the true B");
+  compare_command
+      ->add_option("--mask", compare.mask,
+                   "what moves is white here: frames as those of A, or one. Left out of stability")
+      ->excludes(iou);
   compare_command->add_option("--json", compare.json, "write all values of each frame to this file");
   compare_command->add_option("--slices", compare.slices,
                               "write a row of each over time to this folder: a.png and b.png");

@@ -17,6 +17,7 @@ Comparison Measured(const CompareOptions& options, const std::atomic<bool>& stop
   const auto mask = options.mask.empty() ? nullptr : OpenFrames(options.mask, stop);
   ComparisonTask task{.a = {options.a.string(), *a},
                       .b = {options.b.string(), *b},
+                      .are_masks = options.are_masks,
                       .mask = {},
                       .slices = !options.slices.empty(),
                       .slice_row = options.row,

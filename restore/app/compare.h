@@ -10,6 +10,7 @@ namespace shimmer::restore::app {
 struct CompareOptions {
   std::filesystem::path a, b, mask, json, slices;  // the last three may be empty: not wanted
   std::optional<int> row;                          // of the slices
+  bool are_masks = false;                          // A and B
   int threads = 0;                                 // 0: all
   bool quiet = false;
 };

@@ -93,14 +93,23 @@ class PairReader {
   std::optional<std::array<TimeSlice, 2>> slices_;
 };
 
+FrameScores MasksMeasured(const FramePair& pair) {
+  const MaskCounts counts = CompareMasks(pair.a, pair.b);
+  FrameScores scores;
+  scores.iou = counts.Iou();
+  scores.precision = counts.Precision();
+  scores.recall = counts.Recall();
+  return scores;
+}
+
 FrameScores Measured(const FramePair& pair, bool b_is_still) {
-  FrameScores scores{.psnr_db = Psnr(pair.a, pair.b),
-                     .ssim_opencv = SsimOpenCv(pair.a, pair.b),
-                     .ssim_scikit_image = SsimScikitImage(pair.a, pair.b),
-                     .psnr_y_db = PsnrY(pair.a, pair.b),
-                     .ssim_y = SsimY(pair.a, pair.b),
-                     .line_deviation_deg = {LineDeviation_deg(pair.a)},
-                     .difference_levels = {}};
+  FrameScores scores;
+  scores.psnr_db = Psnr(pair.a, pair.b);
+  scores.ssim_opencv = SsimOpenCv(pair.a, pair.b);
+  scores.ssim_scikit_image = SsimScikitImage(pair.a, pair.b);
+  scores.psnr_y_db = PsnrY(pair.a, pair.b);
+  scores.ssim_y = SsimY(pair.a, pair.b);
+  scores.line_deviation_deg[0] = LineDeviation_deg(pair.a);
   if (pair.frame == 0 || !b_is_still) scores.line_deviation_deg[1] = LineDeviation_deg(pair.b);
   if (!pair.a_before.empty())
     scores.difference_levels[0] = FrameDifference(pair.a_before, pair.a, pair.moving);
@@ -115,6 +124,7 @@ Comparison CompareSequences(const ComparisonTask& task, const std::atomic<bool>&
                             const std::function<void()>& step) {
   PairReader reader(task);
   Comparison result;
+  result.are_masks = task.are_masks;
   result.b_is_still = reader.b_is_still();
   const int threads = task.threads > 0 ? task.threads : tbb::info::default_concurrency();
   // An arena may have more threads than processors only where this allows it; oneTBB prints a warning
@@ -134,7 +144,10 @@ Comparison CompareSequences(const ComparisonTask& task, const std::atomic<bool>&
                                                              }) &
                                tbb::make_filter<FramePair, FrameScores>(
                                    tbb::filter_mode::parallel,
-                                   [&](const FramePair& pair) { return Measured(pair, result.b_is_still); }) &
+                                   [&](const FramePair& pair) {
+                                     return task.are_masks ? MasksMeasured(pair)
+                                                           : Measured(pair, result.b_is_still);
+                                   }) &
                                tbb::make_filter<FrameScores, void>(tbb::filter_mode::serial_in_order,
                                                                    [&](const FrameScores& scores) {
                                                                      result.frames.push_back(scores);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,22 +20,26 @@ using Value = std::optional<double>;  // absent where it is not defined
 
 struct FrameScores {
   Value psnr_db, ssim_opencv, ssim_scikit_image, psnr_y_db, ssim_y;  // of A against B
+  Value iou, precision, recall;                                      // likewise, instead, of masks
   std::array<Value, 2> line_deviation_deg;                           // of A, of B
   std::array<Value, 2> difference_levels;                            // to the frame before, likewise
 };
 
-// The scores of A against B: the more, the better.
+// A score of A against B: the more, the better.
 struct Score {
   const char *name, *label;  // in JSON, in the table
   int decimals;
   Value FrameScores::*value;
 };
-inline constexpr Score kScores[] = {
+inline constexpr Score kPictureScores[] = {
     {"psnr_db", "PSNR, dB", 2, &FrameScores::psnr_db},
     {"ssim_opencv", "SSIM (OpenCV)", 4, &FrameScores::ssim_opencv},
     {"ssim_scikit_image", "SSIM (scikit-image)", 4, &FrameScores::ssim_scikit_image},
     {"psnr_y_db", "PSNR-Y, dB", 2, &FrameScores::psnr_y_db},
     {"ssim_y", "SSIM-Y", 4, &FrameScores::ssim_y}};
+inline constexpr Score kMaskScores[] = {{"iou", "IoU", 4, &FrameScores::iou},
+                                        {"precision", "precision", 4, &FrameScores::precision},
+                                        {"recall", "recall", 4, &FrameScores::recall}};
 
 // What is compared. The names stand in errors.
 struct Compared {
@@ -44,6 +49,7 @@ struct Compared {
 
 struct ComparisonTask {
   Compared a, b;
+  bool are_masks = false;        // A and B are: only how they meet is measured
   std::optional<Compared> mask;  // what moves is white
   bool slices = false;           // of one row over time, wanted
   std::optional<int> slice_row;  // absent: the middle
@@ -52,9 +58,14 @@ struct ComparisonTask {
 
 struct Comparison {
   cv::Size size;
+  bool are_masks = false;
   bool b_is_still = false;  // its line deviation is in the first frame alone, its difference in none
   std::vector<FrameScores> frames;
   std::array<cv::Mat, 2> slices;  // of A and B, empty where not wanted
+
+  std::span<const Score> scores() const {
+    return are_masks ? std::span<const Score>(kMaskScores) : kPictureScores;
+  }
 };
 
 // Frames are measured on several threads; the result is the same on any number of them. step: called after

@@ -50,7 +50,7 @@ OwnValues OwnValuesOf(const Comparison& comparison, size_t which) {
   for (const auto& spread : own.rolling)
     if (spread) spreads.emplace_back(spread->standard_deviation);
   own.mean_deviation_deg = MeanOfPresent(own.deviation_deg);
-  own.rolling_spread_deg = MeanOfPresent(spreads);
+  if (own.deviation_deg.size() > 1) own.rolling_spread_deg = MeanOfPresent(spreads);  // one picture has none
   own.mean_difference_levels = MeanOfPresent(own.difference_levels);
   return own;
 }
@@ -80,12 +80,14 @@ Json ValueJson(Value value) {
   return *value;
 }
 
-Json SequenceJson(const std::string& path, size_t frames, const OwnValues& own) {
-  return {{"path", path},
-          {"frames", frames},
-          {"line_deviation_deg", ValueJson(own.mean_deviation_deg)},
-          {"line_deviation_rolling_sd_deg", ValueJson(own.rolling_spread_deg)},
-          {"stability_levels", ValueJson(own.mean_difference_levels)}};
+Json SequenceJson(const Comparison& comparison, size_t which, const std::string& path, const OwnValues& own) {
+  Json json = {{"path", path},
+               {"frames", which == 1 && comparison.b_is_still ? 1 : comparison.frames.size()}};
+  if (comparison.are_masks) return json;
+  json["line_deviation_deg"] = ValueJson(own.mean_deviation_deg);
+  json["line_deviation_rolling_sd_deg"] = ValueJson(own.rolling_spread_deg);
+  json["stability_levels"] = ValueJson(own.mean_difference_levels);
+  return json;
 }
 
 // The values of one frame, for B those that it has.
@@ -108,12 +110,13 @@ std::string ComparisonTable(const Comparison& comparison, const std::string& a, 
   std::string table = "A: " + a + ", " + cli::Counted(count, "frame") + " of " + size + "\n";
   table += "B: " + b + ", " + cli::Counted(comparison.b_is_still ? 1 : count, "frame") + "\n\n";
   table += Row("A against B", {"mean", "worst", "in frame"});
-  for (const Score& score : kScores) {
+  for (const Score& score : comparison.scores()) {
     const auto values = Values(comparison, [&](const FrameScores& scores) { return scores.*score.value; });
     const Worst worst = WorstOf(values);
     table += Row(score.label, {Text(MeanOfPresent(values), score.decimals), Text(worst.value, score.decimals),
                                worst.value ? std::to_string(worst.frame) : "-"});
   }
+  if (comparison.are_masks) return table;
   const OwnValues own_a = OwnValuesOf(comparison, 0), own_b = OwnValuesOf(comparison, 1);
   table += "\n" + Row("each alone", {"A", "B"});
   table += Row("line deviation, deg", {Text(own_a.mean_deviation_deg, 2), Text(own_b.mean_deviation_deg, 2)});
@@ -127,7 +130,7 @@ Json ComparisonJson(const Comparison& comparison, const std::string& a, const st
   const size_t count = comparison.frames.size();
   const OwnValues own_a = OwnValuesOf(comparison, 0), own_b = OwnValuesOf(comparison, 1);
   Json mean, worst, frames = Json::array();
-  for (const Score& score : kScores) {
+  for (const Score& score : comparison.scores()) {
     const auto values = Values(comparison, [&](const FrameScores& scores) { return scores.*score.value; });
     const Worst least = WorstOf(values);
     mean[score.name] = ValueJson(MeanOfPresent(values));
@@ -136,14 +139,17 @@ Json ComparisonJson(const Comparison& comparison, const std::string& a, const st
   }
   for (size_t i = 0; i < count; ++i) {
     Json frame = {{"frame", i}};
-    for (const Score& score : kScores) frame[score.name] = ValueJson(comparison.frames[i].*score.value);
-    frame["a"] = OwnFrameJson(own_a, i);
-    frame["b"] = OwnFrameJson(own_b, i);
+    for (const Score& score : comparison.scores())
+      frame[score.name] = ValueJson(comparison.frames[i].*score.value);
+    if (!comparison.are_masks) {
+      frame["a"] = OwnFrameJson(own_a, i);
+      frame["b"] = OwnFrameJson(own_b, i);
+    }
     frames.push_back(frame);
   }
   return {{"size", {comparison.size.width, comparison.size.height}},
-          {"a", SequenceJson(a, count, own_a)},
-          {"b", SequenceJson(b, comparison.b_is_still ? 1 : count, own_b)},
+          {"a", SequenceJson(comparison, 0, a, own_a)},
+          {"b", SequenceJson(comparison, 1, b, own_b)},
           {"mean", mean},
           {"worst", worst},
           {"frames", frames}};

@@ -11,7 +11,8 @@ namespace shimmer::restore::app {
 // Frames of the rolling mean and standard deviation of the line deviation.
 inline constexpr int kRollingFrames = 10;
 
-// A table: the mean and the worst of each score, the line deviation and stability of each of both. What is
+// A table: the mean and the worst of each score; but for masks also the line deviation and stability of each
+// of both. What is
 // infinite is "inf", what is absent "-".
 std::string ComparisonTable(const Comparison& comparison, const std::string& a, const std::string& b);
 

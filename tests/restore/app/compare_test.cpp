@@ -1,9 +1,12 @@
+#include "restore/app/compare.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "cli/exit_codes.h"
 #include "restore/psnr.h"
 #include "restore/ssim.h"
 #include "tests/app/program.h"
@@ -142,7 +145,35 @@ TEST(Compare, SaysHowStraightEachIs) {
   const Ran ran = Compare(folder, {"upright.png", "slanted.png"});
   ExpectDone(ran);
   EXPECT_EQ(LineOf(ran.out, "line deviation, deg"), (Words{"0.00", "45.00"}));
-  EXPECT_EQ(LineOf(ran.out, "  its rolling sd"), (Words{"0.00", "0.00"}));
+  EXPECT_EQ(LineOf(ran.out, "  its rolling sd"), (Words{"-", "-"}));  // of one picture
+  for (int t = 0; t < 3; ++t) Put(folder, "both/" + std::to_string(t) + ".png", t == 1 ? slanted : upright);
+  // 0, 45, 0: spreads of 0, of 22.5, and of sqrt((2 15^2 + 30^2) / 3)
+  const Ran both = Compare(folder, {"both", "both"});
+  EXPECT_EQ(LineOf(both.out, "line deviation, deg"), (Words{"15.00", "15.00"}));
+  EXPECT_EQ(LineOf(both.out, "  its rolling sd"), (Words{"14.57", "14.57"}));
+}
+
+// Boxes of 6x4 px that share 3x4; then two empty masks.
+TEST(Compare, ScoresMasks) {
+  const TempFolder folder;
+  for (int t = 0; t < 2; ++t) {
+    cv::Mat found = Flat({20, 12}, CV_8UC1, 0), truth = found.clone();
+    if (t == 0) found(cv::Rect(2, 3, 6, 4)).setTo(255), truth(cv::Rect(5, 3, 6, 4)).setTo(255);
+    Put(folder, "found/" + std::to_string(t) + ".png", found);
+    Put(folder, "truth/" + std::to_string(t) + ".png", truth);
+  }
+  const Ran ran = Compare(folder, {"found", "truth", "--iou", "--json", "out.json"});
+  ExpectDone(ran);
+  EXPECT_EQ(LineOf(ran.out, "IoU"), (Words{"0.6667", "0.3333", "0"}));
+  EXPECT_EQ(LineOf(ran.out, "precision"), (Words{"0.7500", "0.5000", "0"}));
+  EXPECT_EQ(LineOf(ran.out, "recall"), (Words{"0.7500", "0.5000", "0"}));
+  EXPECT_THAT(ran.out, testing::Not(HasSubstr("PSNR")));
+  EXPECT_THAT(ran.out, testing::Not(HasSubstr("stability")));
+  const Json json = ReadJson(folder, "out.json");
+  EXPECT_EQ(json["frames"][0], Json({{"frame", 0}, {"iou", 12.0 / 36}, {"precision", 0.5}, {"recall", 0.5}}));
+  EXPECT_EQ(json["frames"][1], Json({{"frame", 1}, {"iou", 1}, {"precision", 1}, {"recall", 1}}));
+  EXPECT_EQ(json["a"], Json({{"path", "found"}, {"frames", 2}}));
+  ExpectRefused(Compare(folder, {"found", "truth", "--iou", "--mask", "truth"}), 2, {"--mask", "--iou"});
 }
 
 TEST(Compare, DrawsARowOverTime) {
@@ -215,6 +246,24 @@ TEST(Compare, DepthsMayDiffer) {
   Put(folder, "bytes.png", bytes);
   Put(folder, "words.png", words, 16);
   EXPECT_EQ(LineOf(Compare(folder, {"bytes.png", "words.png"}).out, "PSNR, dB"), (Words{"inf", "inf", "0"}));
+}
+
+// Asked to stop, it writes nothing.
+TEST(Compare, EndsInGoodOrder) {
+  const TempFolder folder;
+  Put(folder, "a.png", Flat({8, 8}, CV_8UC1, 1));
+  const CompareOptions options{.a = folder / "a.png",
+                               .b = folder / "a.png",
+                               .mask = {},
+                               .json = folder / "out.json",
+                               .slices = folder / "slices",
+                               .row = {},
+                               .quiet = true};
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(Compare(options, std::atomic<bool>(true)), cli::kExitInterrupted);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "slices"));
 }
 
 // The same on any number of threads, to the last byte.
