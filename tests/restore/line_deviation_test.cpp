@@ -71,6 +71,16 @@ TEST(LineDeviation, GrowsAsAnEdgeBends) {
   }
 }
 
+// Red beside the grey of the same brightness (76) has no edge, green (150) has.
+TEST(LineDeviation, SeesBrightnessAlone) {
+  for (const auto& [colour, seen] :
+       {std::pair(cv::Scalar(255, 0, 0), false), std::pair(cv::Scalar(0, 255, 0), true)}) {
+    cv::Mat frame(100, 100, CV_8UC3, cv::Scalar::all(76));
+    frame.colRange(50, 100).setTo(colour);
+    EXPECT_EQ(LineDeviation_deg(frame).has_value(), seen);
+  }
+}
+
 TEST(LineDeviation, IsAbsentWhereThereIsNoLine) {
   EXPECT_FALSE(LineDeviation_deg(Flat({64, 48}, CV_8UC3, 128)));
   EXPECT_FALSE(LineDeviation_deg(Flat({1, 1}, CV_8UC1, 128)));
