@@ -12,7 +12,10 @@ namespace {
 
 // Detail is smoothed, so that neighbours share their noise: so many px count as one.
 constexpr double kPxOfOneSample = 12;
-constexpr double kTukey = 4.685;         // 95 % efficiency for normal errors
+constexpr double kLeastAlike = 0.5;  // correlation of a block with its reference
+// Narrower than the 4.685 of 95 % efficiency: objects are on one side, and often nearer than the farthest
+// air.
+constexpr double kTukey = 3;
 constexpr double kMadOfNormal = 0.4549;  // median of the square of a normal number
 constexpr double kLeastScatter_px = 0.005;
 constexpr double kMostShift_px = 2;  // beyond it the gradient says nothing
@@ -20,7 +23,7 @@ constexpr int kRounds = 12;
 
 // Sums over a block's px, one for each of its columns.
 struct ColumnSums {
-  std::array<float, kBlock_px> xx{}, xy{}, yy{}, xr{}, yr{}, rr{}, ff{}, n{};
+  std::array<float, kBlock_px> xx{}, xy{}, yy{}, xr{}, yr{}, rr{}, ff{}, mm{}, n{};
 };
 
 double Total(const std::array<float, kBlock_px>& columns) {
@@ -45,7 +48,7 @@ void AddRow(const cv::Mat& frame, const cv::Mat& reference, const cv::Mat& seen,
     const float rest = counts * (r[x] - f[x]);
     sums.xx[x] += gx * gx, sums.xy[x] += gx * gy, sums.yy[x] += gy * gy;
     sums.xr[x] += gx * rest, sums.yr[x] += gy * rest, sums.rr[x] += rest * rest;
-    sums.ff[x] += counts * f[x] * f[x], sums.n[x] += counts;
+    sums.ff[x] += counts * f[x] * f[x], sums.mm[x] += counts * r[x] * r[x], sums.n[x] += counts;
   }
 }
 
@@ -54,6 +57,9 @@ void AddBlock(const ColumnSums& sums, std::vector<BlockShift>& blocks) {
   if (n < kBlock_px * kBlock_px / 4.0) return;
   const double xx = Total(sums.xx), xy = Total(sums.xy), yy = Total(sums.yy), xr = Total(sums.xr),
                yr = Total(sums.yr), rr = Total(sums.rr);
+  const double ff = Total(sums.ff), mm = Total(sums.mm), product = (ff + mm - rr) / 2,
+               alike = product / std::max(std::sqrt(ff * mm), 1e-30);
+  if (alike < kLeastAlike) return;
   const double middle = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
   const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
   const std::array<cv::Point2d, 2> axes = {cv::Point2d{std::cos(angle), std::sin(angle)},

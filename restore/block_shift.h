@@ -4,7 +4,8 @@
 // shake, and it is smallest if all parts count alike, however much texture they have: so each block of
 // kBlock_px squared is measured for itself (least squares on the gradient: Lucas & Kanade 1981) and weighs 1
 // / (its own noise + the scatter that turbulence gives the blocks). What moves otherwise than most, such as
-// an object, falls out by Tukey's biweight.
+// an object, falls out by Tukey's biweight, and a block that does not look like the reference at all is not
+// asked.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -12,7 +13,7 @@
 
 namespace shimmer::restore {
 
-inline constexpr int kBlock_px = 16;
+inline constexpr int kBlock_px = 8;
 
 // A block along one of the two axes in which its texture is strongest and weakest.
 struct BlockShift {
@@ -23,7 +24,8 @@ struct BlockShift {
 
 // By how much `frame` has still to be moved, frame(p + shift) = reference(p), block by block. frame,
 // reference and seen are CV_32FC1 of one size; pixels where seen or a neighbour's is 0 are left out, and so
-// is a rim of Mosaic::kRim_px of the frame. Shifts are good to a px or two. Blocks without texture give none.
+// is a rim of Mosaic::kRim_px of the frame. Shifts are good to a px or two. Blocks without texture, or that
+// correlate with the reference by less than 0.5, give none.
 std::vector<BlockShift> BlockShifts(const cv::Mat& frame, const cv::Mat& reference, const cv::Mat& seen);
 
 struct CommonShift {

@@ -47,14 +47,21 @@ cv::Mat ReducedGrey(const cv::Mat& frame, int scale) {
   return grey;
 }
 
-Detail DetailOf(const cv::Mat& grey) {
-  cv::Mat values, local;
+Detail DetailOf(const cv::Mat& grey, double least_contrast) {
+  const auto local_mean = [](const cv::Mat& of) {
+    cv::Mat mean;
+    cv::blur(of, mean, {kLocalSide_px, kLocalSide_px}, {-1, -1}, cv::BORDER_REFLECT);
+    cv::blur(mean, mean, {kLocalSide_px, kLocalSide_px}, {-1, -1}, cv::BORDER_REFLECT);
+    return mean;
+  };
+  cv::Mat values;
   cv::GaussianBlur(grey, values, {0, 0}, kNoiseSigma_px, 0, cv::BORDER_REFLECT_101);
-  cv::blur(values, local, {kLocalSide_px, kLocalSide_px}, {-1, -1}, cv::BORDER_REFLECT);
-  cv::blur(local, local, {kLocalSide_px, kLocalSide_px}, {-1, -1}, cv::BORDER_REFLECT);
-  values -= local;
+  values -= local_mean(values);
   const double contrast = cv::norm(values) / std::sqrt(static_cast<double>(values.total()));
-  if (contrast > 0) values *= 1 / contrast;
+  cv::Mat local = local_mean(values.mul(values));
+  local += least_contrast * least_contrast;
+  cv::sqrt(local, local);
+  cv::divide(values, local, values);
   return {values, contrast};
 }
 

@@ -17,13 +17,13 @@ LevelScales LevelScalesOf(cv::Size size);
 // channels, of which the first three count. Samples that are not finite count as 0. CV_32FC1.
 cv::Mat ReducedGrey(const cv::Mat& frame, int scale);
 
-// The detail of a grey level: less noise, less its local mean (so that it has zero mean everywhere, whatever
-// the light does), divided by its root mean square. A level without any stays near 0: contrast, that root
-// mean square in grey's unit, says so.
+// The detail of a grey level: less noise, less its local mean and divided by its local root mean square, so
+// that neither the light nor a few strong edges count, but all of the frame does. Where that root mean square
+// is below least_contrast (in grey's unit, above 0) detail fades: it is noise.
 struct Detail {
-  cv::Mat values;  // CV_32FC1
-  double contrast;
+  cv::Mat values;   // CV_32FC1, root mean square about 1 where there is texture
+  double contrast;  // root mean square over the frame, in grey's unit, before it was divided
 };
-Detail DetailOf(const cv::Mat& grey);
+Detail DetailOf(const cv::Mat& grey, double least_contrast);
 
 }  // namespace shimmer::restore

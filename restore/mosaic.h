@@ -8,6 +8,11 @@
 
 namespace shimmer::restore {
 
+struct MosaicPart {
+  cv::Mat mean;    // CV_32FC1; 0 where no frame was
+  cv::Mat frames;  // CV_32FC1: how many frames saw each px
+};
+
 class Mosaic {
  public:
   // margin_px: of the canvas beyond a frame on each side, px of the level.
@@ -17,15 +22,18 @@ class Mosaic {
   // local mean the frame's edge has spoiled, is left out.
   void Add(const cv::Mat& detail, cv::Point at);
 
-  const cv::Mat& mean() const { return mean_; }      // CV_32FC1; 0 where no frame was
-  const cv::Mat& frames() const { return frames_; }  // CV_32FC1: how many frames saw each px
+  const MosaicPart& whole() const { return whole_; }
+  MosaicPart Part(cv::Rect area) const;  // not to be written to; area lies within the canvas
+  // The same as if that frame had never been added there.
+  MosaicPart PartWithout(cv::Rect area, const cv::Mat& detail, cv::Point at) const;
   int margin_px() const { return margin_px_; }
 
   static constexpr int kRim_px = 3;
 
  private:
   int margin_px_;
-  cv::Mat sum_, frames_, mean_;
+  cv::Mat sum_;
+  MosaicPart whole_;
 };
 
 }  // namespace shimmer::restore

@@ -44,14 +44,15 @@ double Top(double before, double middle, double after) {
 
 std::vector<ShiftPeak> BestShifts(const cv::Mat& detail, const Mosaic& mosaic, int count) {
   const int margin = mosaic.margin_px();
-  const cv::Size canvas = mosaic.mean().size(), places(2 * margin + 1, 2 * margin + 1);
+  const cv::Size canvas = mosaic.whole().mean.size(), places(2 * margin + 1, 2 * margin + 1);
   // The frame lies on the canvas wherever it is, so that nothing comes round from the other side.
   const cv::Size size(cv::getOptimalDFTSize(canvas.width), cv::getOptimalDFTSize(canvas.height));
   cv::Mat seen;
-  cv::min(mosaic.frames(), 1, seen);
-  const cv::Mat products = Correlations(Spectrum(detail, size), Spectrum(mosaic.mean(), size), places);
+  cv::min(mosaic.whole().frames, 1, seen);
+  const cv::Mat products = Correlations(Spectrum(detail, size), Spectrum(mosaic.whole().mean, size), places);
   const cv::Mat frame_energy = Correlations(Spectrum(detail.mul(detail), size), Spectrum(seen, size), places);
-  const cv::Mat mosaic_energy = WindowSums(mosaic.mean().mul(mosaic.mean()), detail.size(), places);
+  const cv::Mat mosaic_energy =
+      WindowSums(mosaic.whole().mean.mul(mosaic.whole().mean), detail.size(), places);
   const cv::Mat seen_px = WindowSums(seen, detail.size(), places);
 
   const double frame_px = static_cast<double>(detail.total());

@@ -5,146 +5,138 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "restore/block_shift.h"
+#include "restore/alignment.h"
 #include "restore/detail_level.h"
-#include "restore/mosaic.h"
-#include "restore/shift_search.h"
 #include "restore/translate.h"
 
 namespace shimmer::restore {
 namespace {
 
 constexpr int kLeastSide_px = 16;
-constexpr double kFlatContrast = 2e-4;  // of the range: a 20th of an 8-bit step is rounding, not texture
-constexpr double kRival = 0.85;         // a peak of so much of the best one's score may be the right one
-constexpr int kPeaks = 3;
-constexpr int kRounds = 4;
-constexpr double kStill_px = 0.01;  // of the level: what the next round would add is not worth it
-// What a frame that belongs to the video has, however turbulent, and one that doesn't has not: measured.
-constexpr double kLeastClearness = 5, kLeastCorrelation = 0.15;
+// Of the range: a 20th of an 8-bit step is rounding and no texture; below half a step it fades.
+constexpr double kFlatContrast = 2e-4, kLeastContrast = 2e-3;
+// Frames of other scenes correlate by up to 0.15 at the best of all shifts (0.6 where a frame is tiny);
+// frames of the same scene by 0.4 and more under strong turbulence. Noise lowers the correlation, but not
+// below chance.
+constexpr double kLeastCorrelation = 0.12, kLeastEvidence = 1.8;  // evidence: correlation * clearness
 
 double RangeOf(const cv::Mat& grey, int depth) {
   if (depth == CV_8U) return 255;
   if (depth == CV_16U) return 65535;
-  return cv::norm(grey, cv::NORM_INF);
+  return std::max(cv::norm(grey, cv::NORM_INF), 1e-30);
 }
-
-cv::Point Whole(cv::Point2d shift) { return {cvRound(shift.x), cvRound(shift.y)}; }
-
-// A frame's detail at its place on the mosaic: the fraction of the shift by resampling, the rest by `at`.
-struct Placed {
-  cv::Mat detail;
-  cv::Point at;
-
-  Placed(const cv::Mat& level, cv::Point2d shift_px, int margin_px)
-      : detail(Translated(level, shift_px - cv::Point2d(Whole(shift_px)))),
-        at(cv::Point(margin_px, margin_px) - Whole(shift_px)) {}
-  cv::Rect area() const { return {at, detail.size()}; }
-};
-
-bool Within(cv::Rect area, const cv::Mat& canvas) { return (area & cv::Rect({0, 0}, canvas.size())) == area; }
 
 }  // namespace
 
-struct Stabiliser::Levels {
+struct Stabiliser::State {
   cv::Size size;
   int type;
   LevelScales scales;
-  std::optional<Mosaic> fine, coarse;  // once a frame showed something
+  std::optional<Alignment> alignment = {};  // once a frame showed something
+  bool settled = false;                     // the first frames' shifts are given out
+  std::vector<FrameShift> held = {};        // until then
+  std::vector<FrameDetail> details = {};    // of those of them that were found
+  std::vector<Fit> fits = {};
+  cv::Point2d last_px = {};
 
-  double ratio() const { return static_cast<double>(scales.coarse) / scales.fine; }
-
-  void Add(const cv::Mat& fine_detail, const cv::Mat& coarse_detail, cv::Point2d fine_px) {
-    const Placed on_fine(fine_detail, fine_px, fine->margin_px()),
-        on_coarse(coarse_detail, fine_px / ratio(), coarse->margin_px());
-    fine->Add(on_fine.detail, on_fine.at);
-    coarse->Add(on_coarse.detail, on_coarse.at);
+  FrameShift ShiftOf(const Fit& fit, Match match) const {
+    return {match == Match::kFound ? fit.fine_px * scales.fine : last_px,
+            match,
+            fit.correlation,
+            fit.clearness,
+            fit.common.scatter_px * scales.fine,
+            fit.common.error_px * scales.fine};
   }
 
-  struct Refined {
-    cv::Point2d fine_px;
-    double correlation;
-    CommonShift common;
-  };
-
-  // From a shift that is good to a px of the fine level or two; none if it leads off the canvas.
-  std::optional<Refined> Refine(const cv::Mat& detail, cv::Point2d fine_px) const {
-    Refined refined{fine_px, 0, {}};
-    for (int round = 0; round < kRounds; ++round) {
-      const Placed placed(detail, refined.fine_px, fine->margin_px());
-      if (!Within(placed.area(), fine->mean())) return {};
-      const cv::Mat mean = fine->mean()(placed.area()), frames = fine->frames()(placed.area());
-      const cv::Mat seen = frames > 0;
-      const double product = placed.detail.dot(mean);
-      const double energies = cv::norm(placed.detail, cv::NORM_L2SQR, seen) * cv::norm(mean, cv::NORM_L2SQR);
-      refined.correlation = energies > 0 ? product / std::sqrt(energies) : 0;
-      refined.common = CommonShiftOf(BlockShifts(placed.detail, mean, frames));
-      const cv::Point2d step = refined.common.shift_px;
-      if (!std::isfinite(step.x) || !std::isfinite(step.y)) return {};
-      refined.fine_px += step;
-      if (cv::norm(step) < kStill_px) break;
-    }
-    if (!Within(Placed(detail, refined.fine_px, fine->margin_px()).area(), fine->mean())) return {};
-    return refined;
+  void Use(const FrameDetail& detail, const Fit& fit) {
+    alignment->Add(detail, fit.fine_px);
+    if (settled) return;
+    details.push_back(detail);
+    fits.push_back(fit);
   }
+
+  FrameShift Fitted(const cv::Mat& frame, double max_shift_px);
+  void Settle();
 };
+
+FrameShift Stabiliser::State::Fitted(const cv::Mat& frame, double max_shift_px) {
+  const cv::Mat grey = ReducedGrey(frame, scales.fine);
+  const double range = RangeOf(grey, frame.depth());
+  const Detail fine = DetailOf(grey, kLeastContrast * range);
+  if (fine.contrast <= kFlatContrast * range) return {.px = last_px, .match = Match::kFlat};
+  const int ratio = scales.coarse / scales.fine;
+  const FrameDetail detail{
+      fine.values,
+      ratio == 1 ? fine.values : DetailOf(ReducedGrey(grey, ratio), kLeastContrast * range).values};
+  if (!alignment) {
+    // (the mean of the turbulence comes on top, and a peak needs neighbours)
+    const int margin = static_cast<int>(std::ceil(max_shift_px / scales.coarse)) + 2;
+    alignment.emplace(detail.fine.size(), detail.coarse.size(), ratio, margin);
+    const Fit first{.fine_px = {}, .correlation = 1, .common = {}};
+    Use(detail, first);
+    return ShiftOf(first, Match::kFound);
+  }
+  const std::optional<Fit> fit = alignment->Search(detail);
+  if (!fit) return {.px = last_px, .match = Match::kLost};
+  if (fit->correlation < kLeastCorrelation || fit->correlation * fit->clearness < kLeastEvidence)
+    return ShiftOf(*fit, Match::kLost);
+  Use(detail, *fit);
+  return ShiftOf(*fit, Match::kFound);
+}
+
+void Stabiliser::State::Settle() {
+  settled = true;
+  if (fits.empty()) return;  // nothing was to be seen
+  AlignTogether(details, fits, *alignment);
+  last_px = {};
+  size_t found = 0;
+  for (FrameShift& shift : held) {
+    if (shift.match == Match::kFound)
+      shift = ShiftOf(fits[found++], Match::kFound);
+    else
+      shift.px = last_px;
+    last_px = shift.px;
+  }
+  details.clear();
+  fits.clear();
+}
 
 Stabiliser::Stabiliser(StabiliseParams params) : params_(params) {
   if (!std::isfinite(params.max_shift_px) || params.max_shift_px < 0)
     throw std::invalid_argument("max_shift_px = " + std::to_string(params.max_shift_px) +
                                 ", must be 0 or more");
+  if (params.first_frames < 1)
+    throw std::invalid_argument("first_frames = " + std::to_string(params.first_frames) +
+                                ", must be 1 or more");
 }
 Stabiliser::~Stabiliser() = default;
 Stabiliser::Stabiliser(Stabiliser&&) noexcept = default;
 Stabiliser& Stabiliser::operator=(Stabiliser&&) noexcept = default;
 
-FrameShift Stabiliser::Next(const cv::Mat& frame) {
+std::vector<FrameShift> Stabiliser::Next(const cv::Mat& frame) {
   const int side = std::min(frame.cols, frame.rows);
   if (side < kLeastSide_px)
     throw std::invalid_argument("frame is " + std::to_string(frame.cols) + "x" + std::to_string(frame.rows) +
                                 " px, must be at least 16x16");
-  if (!levels_)
-    levels_ =
-        std::make_unique<Levels>(Levels{frame.size(), frame.type(), LevelScalesOf(frame.size()), {}, {}});
-  if (frame.size() != levels_->size || frame.type() != levels_->type)
-    throw std::invalid_argument("a frame of another size or type than the first");
-  const LevelScales scales = levels_->scales;
-  const cv::Mat grey = ReducedGrey(frame, scales.fine);
-  const Detail fine = DetailOf(grey);
-  if (fine.contrast <= kFlatContrast * RangeOf(grey, frame.depth()))
-    return {.px = last_px_, .match = Match::kFlat};
-  const Detail coarse =
-      scales.coarse == scales.fine ? fine : DetailOf(ReducedGrey(grey, scales.coarse / scales.fine));
-  if (!levels_->fine) {
-    const double most_px = std::min(params_.max_shift_px > 0 ? params_.max_shift_px : side * 400.0 / 1080,
-                                    static_cast<double>(std::max(frame.cols, frame.rows)));
-    // (the mean of the turbulence comes on top)
-    const int margin = static_cast<int>(std::ceil(most_px / scales.coarse)) + 1;
-    levels_->coarse.emplace(coarse.values.size(), margin);
-    levels_->fine.emplace(fine.values.size(), margin * scales.coarse / scales.fine + 2);
-    levels_->Add(fine.values, coarse.values, {});
-    return {.px = {}, .match = Match::kFound, .correlation = 1};
-  }
-  const std::vector<ShiftPeak> peaks = BestShifts(coarse.values, *levels_->coarse, kPeaks);
-  std::optional<Levels::Refined> best;
-  double clearness = 0;
-  for (const ShiftPeak& peak : peaks) {
-    if (peak.clearness < kRival * peaks.front().clearness) break;
-    const auto refined = levels_->Refine(fine.values, peak.shift_px * levels_->ratio());
-    if (refined && (!best || refined->correlation > best->correlation))
-      best = refined, clearness = peak.clearness;
-  }
-  FrameShift shift{.px = last_px_, .match = Match::kLost, .clearness = clearness};
-  if (!best) return shift;
-  shift.correlation = best->correlation;
-  shift.scatter_px = best->common.scatter_px * scales.fine;
-  shift.error_px = best->common.error_px * scales.fine;
-  if (clearness < kLeastClearness || best->correlation < kLeastCorrelation) return shift;
-  levels_->Add(fine.values, coarse.values, best->fine_px);
-  shift.match = Match::kFound;
-  shift.px = last_px_ = best->fine_px * scales.fine;
-  return shift;
+  if (!state_)
+    state_ = std::make_unique<State>(State{frame.size(), frame.type(), LevelScalesOf(frame.size())});
+  if (frame.size() != state_->size || frame.type() != state_->type)
+    throw std::invalid_argument("frame is of another size or type than the first");
+  const double most_px = params_.max_shift_px > 0 ? params_.max_shift_px : side * 400.0 / 1080;
+  const FrameShift shift =
+      state_->Fitted(frame, std::min(most_px, static_cast<double>(std::max(frame.cols, frame.rows))));
+  state_->last_px = shift.px;
+  if (state_->settled) return {shift};
+  state_->held.push_back(shift);
+  return static_cast<int>(state_->held.size()) < params_.first_frames ? std::vector<FrameShift>{} : Rest();
+}
+
+std::vector<FrameShift> Stabiliser::Rest() {
+  if (!state_ || state_->settled) return {};
+  state_->Settle();
+  return std::exchange(state_->held, {});
 }
 
 bool IsSteady(std::span<const FrameShift> shifts) {
