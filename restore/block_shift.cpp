@@ -18,7 +18,7 @@ constexpr double kLeastAlike = 0.5;  // correlation of a block with its referenc
 constexpr double kTukey = 3;
 constexpr double kMadOfNormal = 0.4549;  // median of the square of a normal number
 constexpr double kLeastScatter_px = 0.005;
-constexpr double kMostShift_px = 2;  // beyond it the gradient says nothing
+constexpr double kMostShift_px = 4;  // beyond it the gradient says nothing
 constexpr int kRounds = 12;
 
 // Sums over a block's px, one for each of its columns.
