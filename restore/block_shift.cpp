@@ -1,5 +1,7 @@
 #include "restore/block_shift.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,15 +98,19 @@ double Along(const BlockShift& block, cv::Point2d shift) {
 std::vector<BlockShift> BlockShifts(const cv::Mat& frame, const cv::Mat& reference, const cv::Mat& seen) {
   constexpr int kRim = Mosaic::kRim_px;
   static_assert(kRim >= 1);  // neighbours are there
-  std::vector<BlockShift> blocks;
-  for (int y0 = kRim; y0 < frame.rows - kRim; y0 += kBlock_px)
+  const int rows = std::max(0, (frame.rows - 2 * kRim + kBlock_px - 1) / kBlock_px);
+  std::vector<std::vector<BlockShift>> of_rows(static_cast<size_t>(rows));
+  tbb::parallel_for(0, rows, [&](int row) {
+    const int y0 = kRim + row * kBlock_px, end = std::min(y0 + kBlock_px, frame.rows - kRim);
     for (int x0 = kRim; x0 < frame.cols - kRim; x0 += kBlock_px) {
-      const int width = std::min(kBlock_px, frame.cols - kRim - x0),
-                end = std::min(y0 + kBlock_px, frame.rows - kRim);
+      const int width = std::min(kBlock_px, frame.cols - kRim - x0);
       ColumnSums sums;
       for (int y = y0; y < end; ++y) AddRow(frame, reference, seen, x0, y, width, sums);
-      AddBlock(sums, blocks);
+      AddBlock(sums, of_rows[static_cast<size_t>(row)]);
     }
+  });
+  std::vector<BlockShift> blocks;  // in order, however many threads there were
+  for (const auto& row : of_rows) blocks.insert(blocks.end(), row.begin(), row.end());
   return blocks;
 }
 

@@ -17,6 +17,8 @@ class Mosaic {
  public:
   // margin_px: of the canvas beyond a frame on each side, px of the level.
   Mosaic(cv::Size frame, int margin_px);
+  Mosaic(Mosaic&&) = default;  // (a copy would share its pictures)
+  Mosaic& operator=(Mosaic&&) = default;
 
   // Lays the frame's detail over the canvas, pixel (0, 0) at `at`, within the canvas. A rim of kRim_px, whose
   // local mean the frame's edge has spoiled, is left out.

@@ -1,5 +1,7 @@
 #include "restore/shift_search.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -49,8 +51,10 @@ std::vector<ShiftPeak> BestShifts(const cv::Mat& detail, const Mosaic& mosaic, i
   const cv::Size size(cv::getOptimalDFTSize(canvas.width), cv::getOptimalDFTSize(canvas.height));
   cv::Mat seen;
   cv::min(mosaic.whole().frames, 1, seen);
-  const cv::Mat products = Correlations(Spectrum(detail, size), Spectrum(mosaic.whole().mean, size), places);
-  const cv::Mat frame_energy = Correlations(Spectrum(detail.mul(detail), size), Spectrum(seen, size), places);
+  cv::Mat products, frame_energy;
+  tbb::parallel_invoke(
+      [&] { products = Correlations(Spectrum(detail, size), Spectrum(mosaic.whole().mean, size), places); },
+      [&] { frame_energy = Correlations(Spectrum(detail.mul(detail), size), Spectrum(seen, size), places); });
   const cv::Mat mosaic_energy =
       WindowSums(mosaic.whole().mean.mul(mosaic.whole().mean), detail.size(), places);
   const cv::Mat seen_px = WindowSums(seen, detail.size(), places);

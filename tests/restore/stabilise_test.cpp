@@ -1,6 +1,7 @@
 #include "restore/stabilise.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <functional>
@@ -222,6 +223,24 @@ TEST(Stabiliser, FramesOfAnotherSceneAreLost) {
       EXPECT_LT(cv::norm(shift.px - truth(lost ? 3 : k)), 0.05) << k;
     }
     EXPECT_EQ(shifts[4].px, shifts[3].px);
+  }
+}
+
+// To the last bit, for a build and a machine.
+TEST(Stabiliser, IsTheSameOnAnyNumberOfThreads) {
+  const auto shifts = [](size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return ShiftsOf(5, [](int k) {
+      return SeenFrame({.size = {320, 240},
+                        .shift = WanderingShift(k, 30),
+                        .tilt_rms_px = 1,
+                        .frame = static_cast<uint32_t>(k)});
+    });
+  };
+  const auto one = shifts(1), four = shifts(4);
+  for (size_t k = 0; k < one.size(); ++k) {
+    EXPECT_EQ(one[k].px, four[k].px) << k;
+    EXPECT_EQ(one[k].correlation, four[k].correlation) << k;
   }
 }
 
