@@ -1,8 +1,11 @@
 #include "restore/app/commands.h"
 
+#include <map>
+
 #include "cli/command_line.h"
 #include "cli/exit_codes.h"
 #include "restore/app/compare.h"
+#include "restore/app/restore.h"
 
 namespace shimmer::restore::app {
 
@@ -35,9 +38,40 @@ int RunUnshimmer(int argc, const char* const* argv, const std::atomic<bool>& (*l
       ->check(CLI::Range(1, 4096));
   compare_command->add_flag("--quiet", compare.quiet, "no progress");
 
+  RestoreOptions restore;
+  const auto add_restore_options = [&](CLI::App& command) {
+    command.add_option("VIDEO", restore.video, source + ", or the folder of a clip that shimmer made")
+        ->required();
+    command
+        .add_option("--border", restore.params.border,
+                    "what a steadied frame does not see: fill takes it from neighbouring "
+                    "frames (default), crop cuts to what all frames see")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, Border>{{"fill", Border::kFill}, {"crop", Border::kCrop}}));
+    command.add_flag("!--no-stabilise", restore.params.stabilise, "take the camera to have stood");
+    command.add_option("--threads", restore.threads, "number of threads (default: all)")
+        ->check(CLI::Range(1, 4096));
+    command.add_flag("--quiet", restore.quiet, "no progress");
+  };
+  CLI::App* restore_command = app.add_subcommand("restore", "make a turbulent video steady and clear");
+  add_restore_options(*restore_command);
+  restore_command
+      ->add_option("--out", restore.out,
+                   "a new folder for the frames, or a name that ends in .mp4, .mkv, .mov or .avi")
+      ->required();
+  restore_command->add_option("--stages", restore.stages, "write what each stage makes to this new folder");
+  restore_command
+      ->add_option("--fps", restore.frames_per_s, "of a video that is written (default: as VIDEO, else 25)")
+      ->check(CLI::Range(0.1, 1000.0));
+  CLI::App* plan_command =
+      app.add_subcommand("plan", "print what VIDEO is like, and what restore would skip");
+  add_restore_options(*plan_command);
+
   try {
     if (argc > 1 && argv[1][0] != '-') cli::RequireCommand(app, argv[1]);
     app.parse(argc, argv);
+    if (restore_command->parsed()) return RestoreVideo(restore, listen());
+    if (plan_command->parsed()) return PrintPlan(restore, listen());
     return Compare(compare, listen());
   } catch (...) {
     return cli::ReportCaught(app);
