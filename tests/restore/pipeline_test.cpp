@@ -39,15 +39,15 @@ std::vector<cv::Mat> Shaken(int frames, cv::Size size = {160, 121}, int channels
   return shaken;
 }
 
-struct Run {
+struct Outcome {
   VideoFacts facts;
   RestorePlan plan;
   std::vector<FrameOnWay> frames;
 };
 
-Run RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {}) {
+Outcome RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {}) {
   MemoryFrames frames(video);
-  Run run;
+  Outcome run;
   int64_t looked_at = 0;
   run.facts = LookAt(frames, params.shake, [&] { ++looked_at; });
   EXPECT_EQ(looked_at, frames.count());
@@ -64,7 +64,7 @@ Run RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {}) {
 TEST(Restore, SteadiesAVideo) {
   for (const int count : {2, 5, 31}) {
     const std::vector<cv::Mat> video = Shaken(count);
-    const Run run = RunOn(video);
+    const Outcome run = RunOn(video);
     ASSERT_TRUE(run.plan.stabilise && run.plan.fill);
     EXPECT_EQ(run.plan.area, cv::Rect({}, video[0].size()));
     const cv::Rect seen_by_all = CommonArea(run.facts.shifts, video[0].size());
@@ -80,7 +80,7 @@ TEST(Restore, SteadiesAVideo) {
 
 TEST(Restore, CropsToWhatAllFramesSee) {
   const std::vector<cv::Mat> video = Shaken(12, {150, 110}, 3);
-  const Run run = RunOn(video, {.border = Border::kCrop});
+  const Outcome run = RunOn(video, {.border = Border::kCrop});
   EXPECT_TRUE(run.facts.grey && run.plan.grey);
   EXPECT_EQ(run.plan.area, CommonArea(run.facts.shifts, video[0].size()));
   EXPECT_LT(run.plan.area.width, 150);
@@ -93,9 +93,9 @@ TEST(Restore, CropsToWhatAllFramesSee) {
 
 TEST(Restore, IsTheSameOnAnyNumberOfThreads) {
   const std::vector<cv::Mat> video = Shaken(30);
-  const Run many = RunOn(video);
+  const Outcome many = RunOn(video);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const Run alone = RunOn(video);
+  const Outcome alone = RunOn(video);
   for (size_t k = 0; k < video.size(); ++k)
     EXPECT_TRUE(Same(many.frames[k].frame, alone.frames[k].frame)) << k;
 }
@@ -108,7 +108,7 @@ TEST(Restore, LeavesAloneWhatNeedsNothing) {
       {std::vector<cv::Mat>(7, picture), "everything: all frames are the same"},
       {std::vector<cv::Mat>(3, Flat({33, 21}, CV_16UC1, 0)), "everything: all frames are the same"}};
   for (const auto& [video, why] : cases) {
-    const Run run = RunOn(video);
+    const Outcome run = RunOn(video);
     EXPECT_FALSE(run.plan.stabilise);
     EXPECT_TRUE(run.plan.skipped.back().starts_with(why)) << run.plan.skipped.back();
     for (const FrameOnWay& frame : run.frames) EXPECT_EQ(cv::norm(frame.frame, video[0], cv::NORM_INF), 0);
@@ -117,7 +117,7 @@ TEST(Restore, LeavesAloneWhatNeedsNothing) {
   std::vector<cv::Mat> standing;
   for (uint32_t k = 0; k < 6; ++k)
     standing.push_back(SeenFrame({.size = {120, 90}, .frame = k, .noise = 0.02}));
-  const Run run = RunOn(standing);
+  const Outcome run = RunOn(standing);
   EXPECT_FALSE(run.plan.stabilise);
   EXPECT_TRUE(run.plan.skipped.back().starts_with("stabilising: the camera stands"));
   for (size_t k = 0; k < standing.size(); ++k) EXPECT_TRUE(Same(run.frames[k].frame, standing[k]));
