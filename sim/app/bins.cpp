@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/app/number_text.h"
+#include "cli/number_text.h"
 
 namespace shimmer::app {
 namespace {
@@ -42,7 +42,7 @@ double HalfWidthOfOne(double value, bool whole) {
 }
 
 std::string RangeText(double low, double high, double step) {
-  return RoundedText(low, step) + " to " + RoundedText(high, step);
+  return cli::RoundedText(low, step) + " to " + cli::RoundedText(high, step);
 }
 
 }  // namespace
@@ -64,9 +64,9 @@ std::vector<Bin> PutIntoBins(std::span<const double> sorted, AxisKind kind) {
   std::vector<Bin> bins;
   for (size_t i = 0; i + 1 < edges.size(); ++i) {
     const double from = edges[i], to = edges[i + 1];
-    std::string text = one ? ShortText(low) : RangeText(from, to, (to - from) / 2);
+    std::string text = one ? cli::ShortText(low) : RangeText(from, to, (to - from) / 2);
     if (whole && !one)
-      text = whole_width == 1 ? RoundedText(from + 0.5, 1) : RangeText(from + 0.5, to - 0.5, 1);
+      text = whole_width == 1 ? cli::RoundedText(from + 0.5, 1) : RangeText(from + 0.5, to - 0.5, 1);
     bins.push_back({from, to, 0, text});
   }
   for (const double value : sorted) {

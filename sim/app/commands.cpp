@@ -1,11 +1,10 @@
 #include "sim/app/commands.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
-#include <iostream>
 
-#include "sim/app/error_line.h"
+#include "cli/command_line.h"
+#include "cli/error_line.h"
+#include "cli/exit_codes.h"
 #include "sim/app/generate.h"
 #include "sim/app/job.h"
 #include "sim/app/merge.h"
@@ -34,26 +33,6 @@ std::string PlanText(const std::filesystem::path& config_path, const std::vector
               {"skipped", SkippedLines(config, plan)}}
              .dump(2) +
          "\n";
-}
-
-void Print(const std::string& text) {
-  std::cout << text << std::flush;
-  if (!std::cout) throw std::runtime_error("standard output: can't be written");
-}
-
-// CLI11 would say that a command is missing, and not which word is none.
-void RequireCommand(const CLI::App& app, const std::string& word) {
-  std::vector<std::string> commands;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    commands.push_back(command->get_name());
-  if (std::ranges::count(commands, word) > 0) return;
-  throw std::invalid_argument("unknown command '" + word + "', must be " + Listed(commands, "or") +
-                              " (shimmer --help)");
-}
-
-int Report(const std::string& message, int exit_code) {
-  PrintError(message);
-  return exit_code;
 }
 
 }  // namespace
@@ -141,27 +120,23 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*lis
 
   const std::filesystem::path* config_path = nullptr;
   try {
-    if (argc > 1 && argv[1][0] != '-') RequireCommand(app, argv[1]);
+    if (argc > 1 && argv[1][0] != '-') cli::RequireCommand(app, argv[1]);
     app.parse(argc, argv);
     if (*generate_command) return config_path = &generate.config, Generate(generate, listen());
     if (*merge_command) return Merge(merge);
     if (*verify_command) return Verify(verify, listen());
-    if (*plan_command) config_path = &plan_config, Print(PlanText(plan_config, plan_sets, plan_clip));
+    if (*plan_command) config_path = &plan_config, cli::Print(PlanText(plan_config, plan_sets, plan_clip));
     if (*preview_command) Preview(preview);
-    if (*report_command) Print(WriteReport(report_folder).string() + "\n");
-    if (*keys_command) Print(KeysHelpText());
-    if (*schema_command) Print(SchemaText());
-    return kExitDone;
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return Report(std::string(error.what()) + " (shimmer --help)", kExitWrongInput);
+    if (*report_command) cli::Print(WriteReport(report_folder).string() + "\n");
+    if (*keys_command) cli::Print(KeysHelpText());
+    if (*schema_command) cli::Print(SchemaText());
+    return cli::kExitDone;
   } catch (const ConfigError& error) {
     const std::string where = error.pointer().empty() ? "" : ":" + error.pointer();
-    return Report(config_path->string() + where + ": " + error.what(), kExitWrongInput);
-  } catch (const std::invalid_argument& error) {
-    return Report(error.what(), kExitWrongInput);
-  } catch (const std::exception& error) {
-    return Report(error.what(), kExitFailed);
+    cli::PrintError("shimmer", config_path->string() + where + ": " + error.what());
+    return cli::kExitWrongInput;
+  } catch (...) {
+    return cli::ReportCaught(app);
   }
 }
 

@@ -14,10 +14,11 @@
 #include <optional>
 #include <stdexcept>
 
+#include "cli/exit_codes.h"
+#include "cli/number_text.h"
+#include "cli/progress.h"
 #include "sim/app/job.h"
 #include "sim/app/make_clip.h"
-#include "sim/app/number_text.h"
-#include "sim/app/progress.h"
 #include "sim/dataset/dataset_difference.h"
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/manifest.h"
@@ -132,7 +133,7 @@ int DryRun(const GenerateOptions& options, const std::atomic<bool>& stop) {
       static_cast<uint64_t>(PlanMemory(options.memory_bytes, job.config, 1).sources_bytes));
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const Samples samples = MakeSamples(job, pending, threads, free.block_bytes, stop);
-  if (stop) return kExitInterrupted;
+  if (stop) return cli::kExitInterrupted;
 
   const auto clips = static_cast<double>(pending.size()),
              made = std::max(1.0, static_cast<double>(samples.clips));
@@ -140,37 +141,37 @@ int DryRun(const GenerateOptions& options, const std::atomic<bool>& stop) {
   double files = samples.files / made * clips;
   if (layout.IsTars())
     files = static_cast<double>((pending.size() + layout.clips_per_tar - 1) / layout.clips_per_tar);
-  const std::string from = ", from " + Counted(samples.clips, "clip") + ")";
-  Print("clips", Grouped(static_cast<int64_t>(pending.size())) + " of " + Grouped(fixed.clips));
-  Print("frames", Grouped(static_cast<int64_t>(pending.size()) * KeptFrameCount(fixed)));
-  Print("files", Grouped(std::llround(files)));
-  Print("bytes", BytesText(static_cast<uint64_t>(bytes)) + " (" +
-                     BytesText(static_cast<uint64_t>(samples.bytes / made)) + " a clip" + from);
+  const std::string from = ", from " + cli::Counted(samples.clips, "clip") + ")";
+  Print("clips", cli::Grouped(static_cast<int64_t>(pending.size())) + " of " + cli::Grouped(fixed.clips));
+  Print("frames", cli::Grouped(static_cast<int64_t>(pending.size()) * KeptFrameCount(fixed)));
+  Print("files", cli::Grouped(std::llround(files)));
+  Print("bytes", cli::BytesText(static_cast<uint64_t>(bytes)) + " (" +
+                     cli::BytesText(static_cast<uint64_t>(samples.bytes / made)) + " a clip" + from);
   char rate[40];
   std::snprintf(rate, sizeof rate, "%.3g", made / std::max(samples.seconds, 1e-9));
-  Print("time", DurationText(samples.seconds / made * clips) + " (" + rate + " clips/s on " +
+  Print("time", cli::DurationText(samples.seconds / made * clips) + " (" + rate + " clips/s on " +
                     std::to_string(threads) + (threads == 1 ? " thread" : " threads") + from);
-  Print("free", BytesText(static_cast<uint64_t>(free.bytes)) +
-                    (free.files ? ", " + Grouped(std::llround(*free.files)) + " files" : ""));
+  Print("free", cli::BytesText(static_cast<uint64_t>(free.bytes)) +
+                    (free.files ? ", " + cli::Grouped(std::llround(*free.files)) + " files" : ""));
   if (samples.failed > 0)
-    Print("warning", Grouped(samples.failed) + " of " + Grouped(samples.clips) +
+    Print("warning", cli::Grouped(samples.failed) + " of " + cli::Grouped(samples.clips) +
                          " clips failed, for their sources are bad");
   const double all_files = files / std::max(1.0, clips) * static_cast<double>(fixed.clips);
   if (layout.IsPairs() && all_files > kMostFlatFiles)
-    Print("warning", Grouped(std::llround(all_files)) +
+    Print("warning", cli::Grouped(std::llround(all_files)) +
                          " files in a few flat folders, as the readers of this layout want "
                          "them; beyond 200,000 many file systems get slow (sequence, basicsr and webdataset "
                          "are not flat)");
   std::fflush(stdout);
   if (bytes > free.bytes)
     throw std::runtime_error(
-        options.out.string() + ": would take " + BytesText(static_cast<uint64_t>(bytes)) + ", but " +
-        BytesText(static_cast<uint64_t>(free.bytes)) + " are free; fewer clips, or another --out");
+        options.out.string() + ": would take " + cli::BytesText(static_cast<uint64_t>(bytes)) + ", but " +
+        cli::BytesText(static_cast<uint64_t>(free.bytes)) + " are free; fewer clips, or another --out");
   if (free.files && files > *free.files)
-    throw std::runtime_error(options.out.string() + ": would take " + Grouped(std::llround(files)) +
-                             " files, but " + Grouped(std::llround(*free.files)) +
+    throw std::runtime_error(options.out.string() + ": would take " + cli::Grouped(std::llround(files)) +
+                             " files, but " + cli::Grouped(std::llround(*free.files)) +
                              " can be made there; output.layout=webdataset makes few");
-  return kExitDone;
+  return cli::kExitDone;
 }
 
 }  // namespace shimmer::app

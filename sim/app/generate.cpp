@@ -11,13 +11,14 @@
 #include <thread>
 #include <vector>
 
+#include "cli/error_line.h"
+#include "cli/exit_codes.h"
+#include "cli/progress.h"
 #include "sim/app/clip_pipeline.h"
 #include "sim/app/dry_run.h"
-#include "sim/app/error_line.h"
 #include "sim/app/finish.h"
 #include "sim/app/job.h"
 #include "sim/app/origin.h"
-#include "sim/app/progress.h"
 
 namespace shimmer::app {
 namespace {
@@ -62,7 +63,7 @@ std::string Summary(const GenerateOptions& options, const Count& count, double s
                                                         std::to_string(options.shard.count);
   return options.out.string() + shard + ": " + std::to_string(count.done) + " of " +
          std::to_string(count.clips) + " clips done, " + std::to_string(count.failed) + " failed (" +
-         DurationText(seconds) + ")";
+         cli::DurationText(seconds) + ")";
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   const dataset::Wanted wanted = options.WantedOf(clips);
   const auto start = std::chrono::steady_clock::now();
   const std::unique_ptr<dataset::DatasetWriter> writer = OpenFolder(options, job, stop);
-  if (!writer) return kExitInterrupted;
+  if (!writer) return cli::kExitInterrupted;
   job.RememberSources(options.out);
   if (job.FromFiles()) NoteConfigFolder(options.out, options.config.parent_path());
   const std::vector<int64_t> pending =
@@ -94,7 +95,7 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
   job.pictures->SetBudget(static_cast<uint64_t>(memory.sources_bytes));
   const int64_t own = CountClips(*writer, clips, options.shard).clips;
   const auto to_make = std::ranges::count_if(pending, [&](int64_t clip) { return clip < clips; });
-  Progress progress(own, own - to_make, options.quiet);
+  cli::Progress progress("clips", own, own - to_make, options.quiet);
   std::string first_error, first_kept;
   const std::set<int64_t> were_done = writer->done();
   std::set<int64_t> kept_units;
@@ -113,7 +114,7 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
     } else {
       writer->Commit(std::move(*made.staged), std::move(made.line));
     }
-    progress.Clip(failed);
+    progress.Step(failed);
   };
   MakeClipsDurably(job, pending, *writer, {.threads = threads, .clips_at_once = memory.clips_at_once}, stop,
                    keep);
@@ -124,7 +125,7 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
     FinishDataset(options.out, writer->layout());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!options.quiet) std::printf("%s\n", Summary(options, count, seconds).c_str());
-  if (stop) return kExitInterrupted;
+  if (stop) return cli::kExitInterrupted;
   std::vector<std::string> wrong;
   if (count.failed > 0)
     wrong.push_back((options.out / ("manifest" + options.shard.Suffix() + ".jsonl")).string() + ": " +
@@ -135,9 +136,9 @@ int MakeMissingClips(const GenerateOptions& options, const std::atomic<bool>& st
     wrong.push_back((options.out / writer->layout().TarPath(*kept_units.begin())).string() +
                     (kept_units.size() > 1 ? " and " + std::to_string(kept_units.size() - 1) + " more" : "") +
                     ": left as it is, for " + first_kept);
-  if (wrong.empty()) return kExitDone;
-  PrintError(wrong.size() > 1 ? wrong[0] + "; " + wrong[1] : wrong[0]);
-  return kExitFailed;
+  if (wrong.empty()) return cli::kExitDone;
+  cli::PrintError("shimmer", wrong.size() > 1 ? wrong[0] + "; " + wrong[1] : wrong[0]);
+  return cli::kExitFailed;
 }
 
 }  // namespace
@@ -148,7 +149,7 @@ int Generate(const GenerateOptions& options, const std::atomic<bool>& stop) {
   try {
     return options.dry_run ? DryRun(options, stop) : MakeMissingClips(options, stop);
   } catch (const dataset::Interrupted&) {
-    return kExitInterrupted;
+    return cli::kExitInterrupted;
   }
 }
 

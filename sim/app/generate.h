@@ -27,8 +27,6 @@ struct GenerateOptions {
   dataset::Wanted WantedOf(int64_t clips) const;
 };
 
-inline constexpr int kExitDone = 0, kExitFailed = 1, kExitWrongInput = 2, kExitInterrupted = 130;
-
 // Makes the clips that the folder does not have yet, several at a time; returns the exit code. A clip whose
 // source is bad is noted as failed and the rest go on. Throws ConfigError and std::invalid_argument (nothing
 // was touched), and std::runtime_error where the folder can't be written.

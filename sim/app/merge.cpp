@@ -5,10 +5,10 @@
 #include <optional>
 #include <set>
 
+#include "cli/exit_codes.h"
+#include "cli/number_text.h"
 #include "sim/app/finish.h"
-#include "sim/app/generate.h"
 #include "sim/app/job.h"
-#include "sim/app/number_text.h"
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/dataset_reader.h"
 #include "sim/dataset/merge.h"
@@ -60,13 +60,13 @@ int Merge(const MergeOptions& options) {
       ++missing_of_shard[shards ? layout.UnitOf(clip) % *shards : 0];
   }
   std::printf("%s: %lld of %s done, %lld failed\n", options.folder.c_str(), static_cast<long long>(done),
-              Counted(clips, "clip").c_str(), static_cast<long long>(failed));
+              cli::Counted(clips, "clip").c_str(), static_cast<long long>(failed));
   for (const auto& [shard, missing] : missing_of_shard) {
     const std::string whose =
         shards ? "shard " + std::to_string(shard) + "/" + std::to_string(*shards) + ": " : "";
-    std::printf("%s%s missing\n", whose.c_str(), Counted(missing, "clip").c_str());
+    std::printf("%s%s missing\n", whose.c_str(), cli::Counted(missing, "clip").c_str());
   }
-  return done == clips ? kExitDone : kExitFailed;
+  return done == clips ? cli::kExitDone : cli::kExitFailed;
 }
 
 }  // namespace shimmer::app

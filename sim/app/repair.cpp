@@ -4,12 +4,12 @@
 #include <optional>
 #include <stdexcept>
 
+#include "cli/progress.h"
 #include "sim/app/clip_pipeline.h"
 #include "sim/app/clip_size.h"
 #include "sim/app/finish.h"
 #include "sim/app/job.h"
 #include "sim/app/origin.h"
-#include "sim/app/progress.h"
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/pending.h"
 #include "sim/dataset/unite.h"
@@ -72,7 +72,7 @@ void MakeAgain(const fs::path& folder, const Job& job, const std::vector<int64_t
   const std::set<int64_t> were_done = writer.done();
   const MemoryPlan memory = PlanMemory(kDefaultMemory_bytes, job.config, threads);
   job.pictures->SetBudget(static_cast<uint64_t>(memory.sources_bytes));
-  Progress progress(std::ssize(clips), 0, quiet);
+  cli::Progress progress("clips", std::ssize(clips), 0, quiet);
   const auto keep = [&](MadeClip made) {
     const bool failed = !made.staged;
     if (failed && were_done.contains(made.clip)) {
@@ -87,7 +87,7 @@ void MakeAgain(const fs::path& folder, const Job& job, const std::vector<int64_t
       else
         writer.Repair(std::move(*made.staged), std::move(made.line));
     }
-    progress.Clip(failed);
+    progress.Step(failed);
   };
   MakeClipsDurably(job, clips, writer, {.threads = threads, .clips_at_once = memory.clips_at_once}, stop,
                    keep);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cli/number_text.h"
 #include "sim/app/html.h"
 #include "sim/app/job.h"
-#include "sim/app/number_text.h"
 #include "sim/app/preview.h"
 #include "sim/app/report_charts.h"
 #include "sim/app/report_drawn.h"
@@ -85,9 +85,10 @@ std::string SourcesHtml(const Json& sources, const ReportFacts& facts) {
   const std::string others = counts.masks_and_objects == 0
                                  ? ""
                                  : " The set is made from these and " +
-                                       Counted(counts.masks_and_objects, "file") + " of masks and objects.";
+                                       cli::Counted(counts.masks_and_objects, "file") +
+                                       " of masks and objects.";
   return Section("sources", "Sources",
-                 Grouped(std::ssize(rows)) + " of " + Counted(counts.backgrounds, "source file") +
+                 cli::Grouped(std::ssize(rows)) + " of " + cli::Counted(counts.backgrounds, "source file") +
                      (rows.size() == 1 ? " is" : " are") + " seen in clips that are done." + others,
                  BarsHtml({"source.path", "", {"clips that show it"}}, rows));
 }
@@ -96,9 +97,9 @@ std::string FailureRow(const std::string& error, const Failure& failure) {
   std::string which;
   for (const int64_t clip : failure.first_clips) which += (which.empty() ? "" : ", ") + std::to_string(clip);
   const int64_t more = failure.clips - std::ssize(failure.first_clips);
-  if (more > 0) which += " and " + Grouped(more) + " more";
+  if (more > 0) which += " and " + cli::Grouped(more) + " more";
   return "<tr data-clips=\"" + std::to_string(failure.clips) + "\"><td>" + EscapeHtml(error) +
-         "</td><td class=\"count\">" + Grouped(failure.clips) + "</td><td>" + which + "</td></tr>\n";
+         "</td><td class=\"count\">" + cli::Grouped(failure.clips) + "</td><td>" + which + "</td></tr>\n";
 }
 
 std::string FailuresHtml(const ReportFacts& facts) {
@@ -117,11 +118,11 @@ std::string FailuresHtml(const ReportFacts& facts) {
   }
   if (clips > shown_clips)
     rows += "<tr data-clips=\"" + std::to_string(clips - shown_clips) + "\"><td>" +
-            EscapeHtml("and " + Counted(std::ssize(failures) - shown, "other error")) +
-            "</td><td class=\"count\">" + Grouped(clips - shown_clips) + "</td><td></td></tr>\n";
+            EscapeHtml("and " + cli::Counted(std::ssize(failures) - shown, "other error")) +
+            "</td><td class=\"count\">" + cli::Grouped(clips - shown_clips) + "</td><td></td></tr>\n";
   return Section(
       "failures", "Failures",
-      Counted(clips, "clip") + " could not be made; their lines in the manifest have the error.",
+      cli::Counted(clips, "clip") + " could not be made; their lines in the manifest have the error.",
       "<table class=\"failures\">\n<tr><th scope=\"col\">Error</th><th scope=\"col\" class=\"count\">"
       "Clips</th><th scope=\"col\">Which</th></tr>\n" +
           rows + "</table>\n");

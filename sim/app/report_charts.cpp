@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <numeric>
 
+#include "cli/number_text.h"
 #include "sim/app/html.h"
-#include "sim/app/number_text.h"
 
 namespace shimmer::app {
 namespace {
@@ -81,14 +81,14 @@ std::string BinSvg(const Bin& bin, const Plane& plane, const std::string& unit) 
   std::snprintf(numbers, sizeof numbers, "data-low=\"%.9g\" data-high=\"%.9g\" data-count=\"%lld\"", bin.low,
                 bin.high, static_cast<long long>(bin.count));
   return "<g class=\"bin\" " + std::string(numbers) + "><title>" +
-         EscapeHtml(WithUnit(bin.text, unit) + ": " + Counted(bin.count, "clip")) + "</title>" +
+         EscapeHtml(WithUnit(bin.text, unit) + ": " + cli::Counted(bin.count, "clip")) + "</title>" +
          Rect("hit", left, kTop, right - left, kBase - kTop) +  // to point at, however low the bar
          Rect("bar", (left + right - width) / 2, top, width, height) + "</g>\n";
 }
 
 // Short enough for the axis: "100,000", "2.5M".
 std::string CountText(double count) {
-  return count < 1e6 ? Grouped(static_cast<int64_t>(count)) : ShortText(count / 1e6) + "M";
+  return count < 1e6 ? cli::Grouped(static_cast<int64_t>(count)) : cli::ShortText(count / 1e6) + "M";
 }
 
 std::string AxesSvg(const ChartTexts& texts, std::span<const double> ticks, double tick_step, double most,
@@ -102,7 +102,7 @@ std::string AxesSvg(const ChartTexts& texts, std::span<const double> ticks, doub
   for (const double tick : ticks) {
     svg += Line(plane.X(tick), kBase, plane.X(tick), kBase + 4, "axis");
     svg += Text(plane.X(tick), kBase + 17, "middle",
-                tick_step > 0 ? RoundedText(tick, tick_step) : ShortText(tick));
+                tick_step > 0 ? cli::RoundedText(tick, tick_step) : cli::ShortText(tick));
   }
   std::string name = texts.unit.empty() ? texts.key.substr(texts.key.rfind('.') + 1) : texts.unit;
   if (plane.logarithmic()) name += ", log scale";
@@ -114,8 +114,8 @@ std::string MedianSvg(double median, const Plane& plane) {
   const double x = plane.X(median);
   const bool at_right = x > kWidth * 0.6;
   return Line(x, kTop - 6, x, kBase, "behind") + Line(x, kTop - 6, x, kBase, "median") +
-         Text(x + (at_right ? -5 : 5), kTop - 10, at_right ? "end" : "start", "median " + ShortText(median),
-              "median") +
+         Text(x + (at_right ? -5 : 5), kTop - 10, at_right ? "end" : "start",
+              "median " + cli::ShortText(median), "median") +
          "\n";
 }
 
@@ -135,13 +135,14 @@ std::string HistogramHtml(const ChartTexts& texts, std::span<const double> value
   const bool even = kind != AxisKind::kLogarithmic && ticks.size() > 1;
 
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-  const std::string figures = "min " + ShortText(values.front()) + ", median " + ShortText(median) +
-                              ", mean " + ShortText(sum / double(values.size())) + ", max " +
-                              WithUnit(ShortText(values.back()), texts.unit);
-  std::string svg = "<svg class=\"histogram\" viewBox=\"0 0 " + Px(kWidth) + " " + Px(kHeight) +
-                    "\" role=\"img\" aria-label=\"" +
-                    EscapeHtml(texts.key + " of " + Counted(std::ssize(values), "clip") + ": " + figures) +
-                    "\">\n" + AxesSvg(texts, ticks, even ? ticks[1] - ticks[0] : 0, most, plane);
+  const std::string figures = "min " + cli::ShortText(values.front()) + ", median " + cli::ShortText(median) +
+                              ", mean " + cli::ShortText(sum / double(values.size())) + ", max " +
+                              WithUnit(cli::ShortText(values.back()), texts.unit);
+  std::string svg =
+      "<svg class=\"histogram\" viewBox=\"0 0 " + Px(kWidth) + " " + Px(kHeight) +
+      "\" role=\"img\" aria-label=\"" +
+      EscapeHtml(texts.key + " of " + cli::Counted(std::ssize(values), "clip") + ": " + figures) + "\">\n" +
+      AxesSvg(texts, ticks, even ? ticks[1] - ticks[0] : 0, most, plane);
   for (const Bin& bin : bins) svg += BinSvg(bin, plane, texts.unit);
   return Figure(texts, svg + MedianSvg(median, plane) + "</svg>\n<p class=\"figures\">" +
                            EscapeHtml(figures) + "</p>\n");
@@ -158,16 +159,16 @@ std::string BarsHtml(const ChartTexts& texts, std::span<const BarRow> rows) {
     html +=
         "<li data-value=\"" + EscapeHtml(row.value) + "\" data-count=\"" + std::to_string(row.count) +
         "\"><span class=\"value\">" + EscapeHtml(row.value) + "</span><span class=\"count\">" +
-        Grouped(row.count) + " <small>" + Px(share) +
+        cli::Grouped(row.count) + " <small>" + Px(share) +
         " %</small></span><svg class=\"row\" width=\"100%\" height=\"8\" aria-hidden=\"true\"><title>" +
-        EscapeHtml(row.value + ": " + Counted(row.count, "clip")) +
+        EscapeHtml(row.value + ": " + cli::Counted(row.count, "clip")) +
         "</title><rect class=\"rail\" width=\"100%\" height=\"8\" rx=\"2\"/><rect class=\"bar\" width=\"" +
         Px(100 * double(row.count) / double(most)) + "%\" height=\"8\" rx=\"2\"/></svg></li>\n";
   }
   html += "</ol>\n";
   if (rows.size() > kMostBars)
-    html += "<p class=\"figures\">and " + Grouped(std::ssize(rows) - int64_t{kMostBars}) + " more, of " +
-            Counted(all - shown, "clip") + "</p>\n";
+    html += "<p class=\"figures\">and " + cli::Grouped(std::ssize(rows) - int64_t{kMostBars}) + " more, of " +
+            cli::Counted(all - shown, "clip") + "</p>\n";
   return Figure(texts, html);
 }
 

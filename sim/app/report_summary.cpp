@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cli/number_text.h"
 #include "sim/app/clean_frames.h"
 #include "sim/app/html.h"
 #include "sim/app/job.h"
-#include "sim/app/number_text.h"
 
 namespace shimmer::app {
 namespace {
@@ -41,7 +41,7 @@ std::string SizesText(const Json& size, const ReportFacts& facts) {
   const auto drawn = facts.drawn.find("size");
   if (drawn == facts.drawn.end()) return "drawn";
   const auto& sizes = drawn->second.others;
-  if (std::ssize(sizes) > kMostSizes) return Counted(std::ssize(sizes), "size");
+  if (std::ssize(sizes) > kMostSizes) return cli::Counted(std::ssize(sizes), "size");
   std::string text;
   for (const auto& [one, clips] : sizes) text = Joined(text, one);
   return text + " px";
@@ -53,10 +53,10 @@ std::string SourcesText(const Json& sources) {
     return source.is_object() && source.value("sha256", Json()).is_null();
   });
   const SourceCounts counts = CountSources(sources);
-  std::string text = counts.backgrounds == 0 ? "drawn scenes" : Counted(counts.backgrounds, "file");
+  std::string text = counts.backgrounds == 0 ? "drawn scenes" : cli::Counted(counts.backgrounds, "file");
   if (counts.masks_and_objects > 0)
-    text += " and " + Counted(counts.masks_and_objects, "file") + " of masks and objects";
-  return unread == 0 ? text : text + ", " + Grouped(unread) + " can't be read";
+    text += " and " + cli::Counted(counts.masks_and_objects, "file") + " of masks and objects";
+  return unread == 0 ? text : text + ", " + cli::Grouped(unread) + " can't be read";
 }
 
 std::string TruthText(const std::vector<std::string>& truth) {
@@ -82,14 +82,15 @@ std::string SummaryHtml(const dataset::DatasetReader& reader, const ConfigFile& 
   std::string html =
       "<header>\n<p class=\"kind\">Shimmer data set</p>\n<h1>" + EscapeHtml(config.output.name) +
       "</h1>\n<p class=\"quiet\">" +
-      EscapeHtml("layout " + output.at("layout").get<std::string>() + ", " + Counted(frames, "frame") +
+      EscapeHtml("layout " + output.at("layout").get<std::string>() + ", " + cli::Counted(frames, "frame") +
                  " a clip, " + std::to_string(EncodingOf(config.output).bits) + "-bit " +
                  output.at("format").get<std::string>()) +
       "</p>\n</header>\n<div class=\"tiles\">\n" +
-      Tile("of " + Counted(config.clips, "clip") + " done", Grouped(done)) +
-      Tile("failed", Grouped(failed), failed > 0) + Tile("missing", Grouped(Missing(reader, config.clips))) +
-      Tile("frames", Grouped(done * frames));
-  if (facts.file_bytes > 0) html += Tile("on disk", BytesText(facts.file_bytes));
+      Tile("of " + cli::Counted(config.clips, "clip") + " done", cli::Grouped(done)) +
+      Tile("failed", cli::Grouped(failed), failed > 0) +
+      Tile("missing", cli::Grouped(Missing(reader, config.clips))) +
+      Tile("frames", cli::Grouped(done * frames));
+  if (facts.file_bytes > 0) html += Tile("on disk", cli::BytesText(facts.file_bytes));
   const Json& description = reader.description();
   return html + "</div>\n<dl class=\"summary\">\n" +
          Row("Frame size", SizesText(file.resolved().at("size"), facts)) +

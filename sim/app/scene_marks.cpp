@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "sim/app/number_text.h"
+#include "cli/number_text.h"
 
 namespace shimmer::app {
 namespace {
@@ -45,7 +45,7 @@ double Furthest(std::span<const cv::Point2d> path_px) {
 bool SceneMarks::HasPath() const { return Furthest(path_px) > 0; }
 
 std::string SceneMarks::Label() const {
-  return HasPath() ? "shake up to " + ShortText(Furthest(path_px)) + " px" : "";
+  return HasPath() ? "shake up to " + cli::ShortText(Furthest(path_px)) + " px" : "";
 }
 
 void DrawOutline(cv::Mat& shown, const cv::Mat& mask, cv::Point2d shake_px) {

@@ -8,8 +8,8 @@
 #include <mutex>
 #include <tuple>
 
+#include "cli/progress.h"
 #include "sim/app/job.h"
-#include "sim/app/progress.h"
 #include "sim/dataset/dataset_folder.h"
 
 namespace shimmer::app {
@@ -56,7 +56,7 @@ void VerifyUnits(const Contents& contents, const std::vector<int64_t>& units, in
   };
   int64_t clips = 0;
   for (const int64_t unit : units) clips += clips_in(unit);
-  Progress progress(clips, 0, quiet);
+  cli::Progress progress("clips", clips, 0, quiet);
   std::mutex mutex;  // of progress and found
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   tbb::parallel_for(size_t{0}, units.size(), [&](size_t i) {
@@ -65,7 +65,7 @@ void VerifyUnits(const Contents& contents, const std::vector<int64_t>& units, in
     const std::lock_guard guard(mutex);
     std::ranges::move(unit.problems, std::back_inserter(found.problems));
     found.one_clean.insert(unit.one_clean.begin(), unit.one_clean.end());
-    for (int64_t clip = 0; clip < clips_in(units[i]); ++clip) progress.Clip(false);
+    for (int64_t clip = 0; clip < clips_in(units[i]); ++clip) progress.Step(false);
   });
 }
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "sim/app/generate.h"
-#include "sim/app/number_text.h"
+#include "cli/exit_codes.h"
+#include "cli/number_text.h"
 #include "sim/app/repair.h"
 #include "sim/dataset/dataset_folder.h"
 #include "sim/dataset/folder_lock.h"
@@ -28,10 +28,10 @@ void PrintLine(std::string line) {
 void Print(const VerifyOptions& options, const VerifiedSet& found) {
   if (!options.quiet)
     for (const dataset::Problem& problem : found.problems) PrintLine(problem.name + ": " + problem.text);
-  const std::string failed = found.failed > 0 ? Grouped(found.failed) + " failed, " : "";
-  PrintLine(options.folder.string() + ": " + Grouped(found.whole) + " of " + Counted(found.clips, "clip") +
-            " whole, " + failed + Counted(found.files, "file") + ", " +
-            Counted(std::ssize(found.problems), "problem"));
+  const std::string failed = found.failed > 0 ? cli::Grouped(found.failed) + " failed, " : "";
+  PrintLine(options.folder.string() + ": " + cli::Grouped(found.whole) + " of " +
+            cli::Counted(found.clips, "clip") + " whole, " + failed + cli::Counted(found.files, "file") +
+            ", " + cli::Counted(std::ssize(found.problems), "problem"));
 }
 
 int VerifyAndRepair(const VerifyOptions& options, const std::atomic<bool>& stop) {
@@ -44,7 +44,7 @@ int VerifyAndRepair(const VerifyOptions& options, const std::atomic<bool>& stop)
     return VerifySet(options.folder, before, threads, options.quiet, stop);
   };
   VerifiedSet found = verify(nullptr);
-  if (stop) return kExitInterrupted;
+  if (stop) return cli::kExitInterrupted;
   Print(options, found);
   if (options.repair && !found.problems.empty()) {
     std::fflush(stdout);  // before what may be said on stderr
@@ -53,14 +53,14 @@ int VerifyAndRepair(const VerifyOptions& options, const std::atomic<bool>& stop)
     for (const auto* lines : {&repaired.moved, &repaired.errors})
       for (const std::string& line : *lines)
         if (!options.quiet) PrintLine(line);
-    PrintLine(options.folder.string() + ": " + Counted(repaired.clips_made, "clip") + " made again, " +
-              Counted(std::ssize(repaired.moved), "file") + " moved to " + dataset::kSurplusName);
-    if (stop) return kExitInterrupted;
+    PrintLine(options.folder.string() + ": " + cli::Counted(repaired.clips_made, "clip") + " made again, " +
+              cli::Counted(std::ssize(repaired.moved), "file") + " moved to " + dataset::kSurplusName);
+    if (stop) return cli::kExitInterrupted;
     found = verify(&found);
-    if (stop) return kExitInterrupted;
+    if (stop) return cli::kExitInterrupted;
     Print(options, found);
   }
-  return found.problems.empty() && found.failed == 0 ? kExitDone : kExitFailed;
+  return found.problems.empty() && found.failed == 0 ? cli::kExitDone : cli::kExitFailed;
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ int Verify(const VerifyOptions& options, const std::atomic<bool>& stop) {
   try {
     return VerifyAndRepair(options, stop);
   } catch (const dataset::Interrupted&) {
-    return kExitInterrupted;
+    return cli::kExitInterrupted;
   }
 }
 

@@ -24,6 +24,9 @@ class FrameReader {
   // or whose size or number of channels differs from a frame read before.
   virtual Picture Read(int64_t frame) = 0;
 
+  // Of a video, as its header says; absent of pictures.
+  virtual std::optional<double> frames_per_s() const { return {}; }
+
   // What is odd about the source though it can be used; empty if nothing. Known once count() was asked for.
   virtual std::string remark() const { return {}; }
 

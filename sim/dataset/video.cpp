@@ -61,6 +61,11 @@ class Video : public FrameReader {
 
   std::string remark() const override { return remark_; }
 
+  std::optional<double> frames_per_s() const override {
+    const double rate = capture_.get(cv::CAP_PROP_FPS);
+    return rate > 0 && rate < 1e4 ? std::optional(rate) : std::nullopt;  // 0 or nonsense: not known
+  }
+
  private:
   // A frame is far from the next key frame, or the count of an hour of them: the person may not want to wait.
   bool Grab(cv::VideoCapture& capture) const {

@@ -1,4 +1,5 @@
-// The program `shimmer` as people call it: started with arguments, seen by its exit code and what it prints.
+// The programs as people call them, `shimmer` unless told otherwise: started with arguments, seen by the exit
+// code and what they print.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -47,15 +48,16 @@ inline constexpr int kNotStarted = 127;
 class Running {
  public:
   // The program; as_nobody: by a user who owns nothing.
-  Running(const fs::path& folder, const Words& words, bool as_nobody = false)
+  Running(const fs::path& folder, const Words& words, bool as_nobody = false,
+          const char* program = SHIMMER_PROGRAM)
       : Running(folder, [&] {
           Words named = words;
-          named.insert(named.begin(), SHIMMER_PROGRAM);
+          named.insert(named.begin(), program);
           std::vector<char*> arguments;
           for (std::string& word : named) arguments.push_back(word.data());
           arguments.push_back(nullptr);
           constexpr uid_t kNobody = 65534;
-          if (!as_nobody || setuid(kNobody) == 0) execv(SHIMMER_PROGRAM, arguments.data());
+          if (!as_nobody || setuid(kNobody) == 0) execv(program, arguments.data());
           return kNotStarted;
         }) {}
 
@@ -119,10 +121,11 @@ inline Ran Generate(const TempFolder& folder, const std::string& config, const s
 }
 
 // The program gave this exit code, printed nothing but one line, and the line says all of this.
-inline void ExpectOneLine(const Ran& ran, int exit_code, const Words& parts) {
+inline void ExpectOneLine(const Ran& ran, int exit_code, const Words& parts,
+                          const std::string& program = "shimmer") {
   EXPECT_EQ(ran.exit_code, exit_code) << ran.err;
   EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
-  EXPECT_TRUE(ran.err.starts_with("shimmer: ") && ran.err.ends_with("\n")) << ran.err;
+  EXPECT_TRUE(ran.err.starts_with(program + ": ") && ran.err.ends_with("\n")) << ran.err;
   for (const std::string& part : parts) EXPECT_THAT(ran.err, testing::HasSubstr(part));
   EXPECT_EQ(ran.out, "");
 }

@@ -1,5 +1,5 @@
 // What `shimmer report` says of sets of every kind.
-#include "sim/app/number_text.h"
+#include "cli/number_text.h"
 #include "tests/app/report_page.h"
 
 namespace shimmer::app {
@@ -141,7 +141,7 @@ TEST(Reports, OfEveryLayout) {
       for (const Json& file : line["files"]) bytes += file["bytes"].get<uint64_t>();
     const std::string page = ReportOf(folder, layout);
     EXPECT_THAT(page, HasSubstr("layout " + layout + ", "));
-    EXPECT_THAT(page, HasSubstr("<b>" + BytesText(bytes) + "</b><span>on disk</span>"));
+    EXPECT_THAT(page, HasSubstr("<b>" + cli::BytesText(bytes) + "</b><span>on disk</span>"));
     EXPECT_THAT(page, HasSubstr("<img"));
   }
 }

@@ -3,7 +3,7 @@
 import re
 
 LINK = re.compile(r"\]\(([^)#\s]+)[^)]*\)")
-FILE = re.compile(r"(?<![\w./-])(?:noise|sim|tests|configs|scripts|docs)/[\w./-]*\w"
+FILE = re.compile(r"(?<![\w./-])(?:cli|noise|sim|restore|tests|configs|scripts|docs)/[\w./-]*\w"
                   r"\.(?:h|cpp|py|json|sh|md|png|gif)\b")
 TEST = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 

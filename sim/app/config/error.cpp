@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "cli/listed.h"
+
 namespace shimmer::app {
 namespace {
 
@@ -86,19 +88,10 @@ std::string Closest(const std::string& name, std::span<const std::string> candid
   return best;
 }
 
-std::string Listed(std::span<const std::string> names, const std::string& joint) {
-  std::string text;
-  for (size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 < names.size() ? ", " : " " + joint + " ";
-    text += "'" + names[i] + "'";
-  }
-  return text;
-}
-
 std::string UnknownKey(const std::string& name, std::span<const std::string> known) {
   const std::string closest = Closest(name, known);
   return "unknown key '" + ShownText(name) + "'; " +
-         (closest.empty() ? "must be " + Listed(known, "or") : "did you mean '" + closest + "'?");
+         (closest.empty() ? "must be " + cli::Listed(known, "or") : "did you mean '" + closest + "'?");
 }
 
 void RequireObject(const Json& value, const std::string& pointer) {

@@ -37,9 +37,6 @@ std::string PointerUnder(const std::string& pointer, size_t index);
 // is near.
 std::string Closest(const std::string& name, std::span<const std::string> candidates);
 
-// "'a', 'b' or 'c'"; joint: what stands before the last, "or" or "and".
-std::string Listed(std::span<const std::string> names, const std::string& joint);
-
 // "unknown key 'strenght_px'; did you mean 'strength_px'?", or the list of what there is.
 std::string UnknownKey(const std::string& name, std::span<const std::string> known);
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/listed.h"
 #include "sim/app/config/distribution.h"
 #include "sim/app/config/keys.h"
 #include "sim/dataset/layout.h"
@@ -27,9 +28,10 @@ void CheckAlternatives(const Key& section, const Json& values) {
   }
   if (names.empty() || given.size() == 1) return;
   if (given.empty())
-    throw ConfigError(section.pointer, "has none of " + Listed(names, "and") + ", must have exactly one");
-  throw ConfigError(section.pointer, "has " + Listed(given, "and") + ", must have exactly one of " +
-                                         Listed(names, "and") + " (--set " + section.path + "." +
+    throw ConfigError(section.pointer,
+                      "has none of " + cli::Listed(names, "and") + ", must have exactly one");
+  throw ConfigError(section.pointer, "has " + cli::Listed(given, "and") + ", must have exactly one of " +
+                                         cli::Listed(names, "and") + " (--set " + section.path + "." +
                                          given.front() + "=null takes one away)");
 }
 

@@ -1,16 +1,17 @@
-#include "sim/app/progress.h"
+#include "cli/progress.h"
 
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 
-namespace shimmer::app {
+namespace shimmer::cli {
 
 using Clock = std::chrono::steady_clock;
 
-Progress::Progress(int64_t clips, int64_t finished, bool quiet)
-    : clips_(clips),
+Progress::Progress(std::string what, int64_t count, int64_t finished, bool quiet)
+    : what_(std::move(what)),
+      count_(count),
       finished_before_(finished),
       finished_(finished),
       quiet_(quiet),
@@ -18,12 +19,12 @@ Progress::Progress(int64_t clips, int64_t finished, bool quiet)
       start_(Clock::now()),
       shown_(start_) {}
 
-void Progress::Clip(bool failed) {
+void Progress::Step(bool failed) {
   ++finished_;
   failed_ += failed;
   const auto now = Clock::now();
   const double wait_seconds = terminal_ ? 0.1 : 5;
-  if (quiet_ || (std::chrono::duration<double>(now - shown_).count() < wait_seconds && finished_ < clips_))
+  if (quiet_ || (std::chrono::duration<double>(now - shown_).count() < wait_seconds && finished_ < count_))
     return;
   shown_ = now;
   on_line_ = terminal_;
@@ -40,15 +41,14 @@ std::string Progress::Line(double seconds) const {
   constexpr int kBarCells = 30;
   std::string text;
   if (terminal_) {
-    const auto full = static_cast<size_t>(kBarCells * finished_ / clips_);
+    const auto full = static_cast<size_t>(kBarCells * finished_ / count_);
     text = "[" + std::string(full, '#') + std::string(kBarCells - full, '.') + "] ";
   }
   const double rate = static_cast<double>(finished_ - finished_before_) / std::max(seconds, 1e-9);
-  char figures[120];
-  std::snprintf(figures, sizeof figures, "%lld of %lld clips, %.3g/s, %s left",
-                static_cast<long long>(finished_), static_cast<long long>(clips_), rate,
-                DurationText(static_cast<double>(clips_ - finished_) / rate).c_str());
-  text += figures;
+  char figures[40];
+  std::snprintf(figures, sizeof figures, "%.3g/s, ", rate);
+  text += std::to_string(finished_) + " of " + std::to_string(count_) + " " + what_ + ", " + figures +
+          DurationText(static_cast<double>(count_ - finished_) / rate) + " left";
   if (failed_ > 0) text += ", " + std::to_string(failed_) + " failed";
   return text;
 }
@@ -63,4 +63,4 @@ std::string DurationText(double seconds) {
   return text;
 }
 
-}  // namespace shimmer::app
+}  // namespace shimmer::cli

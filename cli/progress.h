@@ -5,24 +5,25 @@
 #include <cstdint>
 #include <string>
 
-namespace shimmer::app {
+namespace shimmer::cli {
 
 class Progress {
  public:
-  // finished: clips that an earlier run made.
-  Progress(int64_t clips, int64_t finished, bool quiet);
+  // what: of which there are `count` ("clips"); finished: those that an earlier run made.
+  Progress(std::string what, int64_t count, int64_t finished, bool quiet);
   ~Progress() { End(); }
   Progress(const Progress&) = delete;
 
-  void Clip(bool failed);  // one more clip is finished. For one thread at a time
-  void End();              // clears the terminal's line, if there is one
+  void Step(bool failed = false);  // one more is finished. For one thread at a time
+  void End();                      // clears the terminal's line, if there is one
 
   int64_t failed() const { return failed_; }
 
  private:
   std::string Line(double seconds) const;
 
-  int64_t clips_, finished_before_, finished_, failed_ = 0;
+  std::string what_;
+  int64_t count_, finished_before_, finished_, failed_ = 0;
   bool quiet_, terminal_, on_line_ = false;
   std::chrono::steady_clock::time_point start_, shown_;
 };
@@ -30,4 +31,4 @@ class Progress {
 // "0:07", "3:25:00".
 std::string DurationText(double seconds);
 
-}  // namespace shimmer::app
+}  // namespace shimmer::cli

@@ -1,11 +1,11 @@
-#include "sim/app/number_text.h"
+#include "cli/number_text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
 
-namespace shimmer::app {
+namespace shimmer::cli {
 
 std::string RoundedText(double value, double step) {
   const double decimals = std::max(0.0, 1 - std::floor(std::log10(step)));
@@ -41,4 +41,4 @@ std::string BytesText(uint64_t bytes) {
   return ShortText(number) + " " + kUnits[unit];
 }
 
-}  // namespace shimmer::app
+}  // namespace shimmer::cli

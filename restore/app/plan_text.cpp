@@ -1,0 +1,83 @@
+#include "restore/app/plan_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/number_text.h"
+
+namespace shimmer::restore::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string Decimals(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+std::string KindText(int type) {
+  const std::string depth = CV_MAT_DEPTH(type) == CV_8U    ? "8 bits"
+                            : CV_MAT_DEPTH(type) == CV_16U ? "16 bits"
+                                                           : "floats";
+  return (CV_MAT_CN(type) == 1 ? "grey, " : "RGB, ") + depth;
+}
+
+// Of the frames that were found: how far the camera goes, and how much the air moves their parts.
+std::string ShakeText(const VideoFacts& facts) {
+  double most_px = 0;
+  std::vector<double> scatter_px;
+  int64_t flat = 0, lost = 0;
+  for (const FrameShift& shift : facts.shifts) {
+    most_px = std::max({most_px, std::abs(shift.px.x), std::abs(shift.px.y)});
+    flat += shift.match == Match::kFlat;
+    lost += shift.match == Match::kLost;
+    if (shift.match == Match::kFound) scatter_px.push_back(shift.scatter_px);
+  }
+  std::string text = "shake     up to " + Decimals(most_px) + " px\n";
+  if (!scatter_px.empty()) {
+    std::ranges::nth_element(scatter_px, scatter_px.begin() + std::ssize(scatter_px) / 2);
+    text += "tilt      about " + Decimals(scatter_px[scatter_px.size() / 2]) + " px\n";
+  }
+  if (flat > 0) text += cli::Counted(flat, "frame") + " of one colour: they stay where the one before is\n";
+  if (lost > 0)
+    text += cli::Counted(lost, "frame") + " unlike the others: they stay where the one before is\n";
+  return text;
+}
+
+}  // namespace
+
+std::string PlanText(const VideoFacts& facts, const RestorePlan& plan) {
+  std::string text = "frames    " + cli::Grouped(facts.frames) + " of " + std::to_string(facts.size.width) +
+                     "x" + std::to_string(facts.size.height) + " px, " + KindText(facts.type) + "\n" +
+                     ShakeText(facts);
+  std::string stages;
+  if (plan.stabilise) stages += plan.fill ? ", stabilise and fill" : ", stabilise and crop";
+  text += "stages    " + (stages.empty() ? "none" : stages.substr(2)) + "\n";
+  if (plan.area.size() != plan.size)
+    text += "area      " + std::to_string(plan.area.width) + "x" + std::to_string(plan.area.height) +
+            " px from (" + std::to_string(plan.area.x) + ", " + std::to_string(plan.area.y) + ")\n";
+  if (!plan.skipped.empty()) text += "skipped\n";
+  for (const std::string& line : plan.skipped) text += "  " + line + "\n";
+  return text;
+}
+
+Json PlanJson(const VideoFacts& facts, const RestorePlan& plan) {
+  Json shifts = Json::array(), matches = Json::array();
+  for (const FrameShift& shift : facts.shifts) {
+    shifts.push_back({shift.px.x, shift.px.y});
+    matches.push_back(shift.match == Match::kFound ? "found" : shift.match == Match::kFlat ? "flat" : "lost");
+  }
+  return {{"size", {plan.size.width, plan.size.height}},
+          {"frames", plan.frames},
+          {"grey", plan.grey},
+          {"stabilise", plan.stabilise},
+          {"fill", plan.fill},
+          {"area", {plan.area.x, plan.area.y, plan.area.width, plan.area.height}},
+          {"skipped", plan.skipped},
+          {"shifts_px", std::move(shifts)},
+          {"matches", std::move(matches)}};
+}
+
+}  // namespace shimmer::restore::app

@@ -1,0 +1,102 @@
+#include "restore/app/restore.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "cli/command_line.h"
+#include "cli/exit_codes.h"
+#include "cli/progress.h"
+#include "restore/app/frame_sink.h"
+#include "restore/app/frame_source.h"
+#include "restore/app/plan_text.h"
+#include "restore/app/stage_files.h"
+#include "restore/pipeline.h"
+
+namespace shimmer::restore::app {
+namespace {
+
+constexpr double kFramesPerS = 25;  // of pictures, which don't say
+
+// A file's frames, until the person asks to stop.
+class FileFrames : public Frames {
+ public:
+  FileFrames(dataset::FrameReader& reader, const std::atomic<bool>& stop) : reader_(reader), stop_(stop) {}
+
+  int64_t count() override { return reader_.count(); }
+  cv::Mat Read(int64_t frame) override {
+    if (stop_) throw dataset::Interrupted();
+    return reader_.Read(frame).pixels;
+  }
+
+ private:
+  dataset::FrameReader& reader_;
+  const std::atomic<bool>& stop_;
+};
+
+// No more threads than were asked for, while it lives.
+class Threads {
+ public:
+  explicit Threads(int threads)
+      : control_(
+            tbb::global_control::max_allowed_parallelism,
+            static_cast<size_t>(
+                threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())))) {
+  }
+
+ private:
+  tbb::global_control control_;
+};
+
+VideoFacts Look(const RestoreOptions& options, Frames& video) {
+  cli::Progress progress("frames looked at", video.count(), 0, options.quiet);
+  return LookAt(video, options.params.shake, [&] { progress.Step(); });
+}
+
+void Run(const RestoreOptions& options, dataset::FrameReader& reader, const std::atomic<bool>& stop) {
+  FileFrames video(reader, stop);
+  const double frames_per_s = options.frames_per_s.value_or(reader.frames_per_s().value_or(kFramesPerS));
+  const std::unique_ptr<FrameSink> out = OpenSink(options.out, frames_per_s);
+  const std::unique_ptr<StageFiles> stages =
+      options.stages.empty() ? nullptr : std::make_unique<StageFiles>(options.stages);
+  const VideoFacts facts = Look(options, video);
+  const RestorePlan plan = PlanRestore(facts, options.params);
+  cli::Progress progress("frames restored", facts.frames, 0, options.quiet);
+  Restore(video, facts, plan, [&](const FrameOnWay& frame) {
+    out->Add(frame.frame);
+    if (stages) stages->Add(frame);
+    progress.Step();
+  });
+  progress.End();
+  if (stages) stages->Finish(facts, plan);
+  out->Finish();
+}
+
+}  // namespace
+
+int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop) {
+  const Threads threads(options.threads);
+  try {
+    const auto reader = OpenFrames(options.video, stop);
+    Run(options, *reader, stop);
+  } catch (const dataset::Interrupted&) {
+    return cli::kExitInterrupted;
+  }
+  return cli::kExitDone;
+}
+
+int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop) {
+  const Threads threads(options.threads);
+  try {
+    const auto reader = OpenFrames(options.video, stop);
+    FileFrames video(*reader, stop);
+    const VideoFacts facts = Look(options, video);
+    cli::Print(PlanText(facts, PlanRestore(facts, options.params)));
+  } catch (const dataset::Interrupted&) {
+    return cli::kExitInterrupted;
+  }
+  return cli::kExitDone;
+}
+
+}  // namespace shimmer::restore::app

@@ -1,0 +1,32 @@
+// What each stage makes, in a folder of its own, for people who want to see it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "restore/app/frame_sink.h"
+#include "restore/plan.h"
+#include "restore/stages.h"
+
+namespace shimmer::restore::app {
+
+// FOLDER/stabilised/0000.png, own/0000.png and so on, for those stages that the plan has; and
+// FOLDER/plan.json.
+class StageFiles {
+ public:
+  // Throws std::invalid_argument where the folder is there, and not empty.
+  explicit StageFiles(std::filesystem::path folder);
+
+  void Add(const FrameOnWay& frame);
+  void Finish(const VideoFacts& facts, const RestorePlan& plan);
+
+ private:
+  void AddTo(const std::string& name, const cv::Mat& picture);
+
+  std::filesystem::path folder_;
+  std::map<std::string, std::unique_ptr<FrameSink>> sinks_;
+};
+
+}  // namespace shimmer::restore::app

@@ -1,0 +1,27 @@
+// What a video is like: found by looking at all of it once, before anything is restored.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "restore/frames.h"
+#include "restore/stabilise.h"
+
+namespace shimmer::restore {
+
+struct VideoFacts {
+  cv::Size size;
+  int type = 0;
+  int64_t frames = 0;
+  bool grey = false;   // one channel, or three that are equal in every px of every frame
+  bool alike = false;  // every frame is the first one, bit by bit
+  std::vector<FrameShift> shifts;
+};
+
+// step: called after each frame. Throws std::invalid_argument for frames that Stabiliser refuses, and what
+// reading throws.
+VideoFacts LookAt(Frames& video, const StabiliseParams& params, const std::function<void()>& step);
+
+}  // namespace shimmer::restore

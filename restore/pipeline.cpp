@@ -1,0 +1,52 @@
+#include "restore/pipeline.h"
+
+#include <tbb/parallel_pipeline.h>
+
+#include <utility>
+
+namespace shimmer::restore {
+namespace {
+
+// What goes from stage to stage: frames that became ready together, none or many.
+struct Batch {
+  std::vector<FrameOnWay> frames;
+  bool last = false;
+};
+
+Batch Through(Stage& stage, Batch batch) {
+  Batch done{.last = batch.last};
+  const auto take = [&](std::vector<FrameOnWay> frames) {
+    std::move(frames.begin(), frames.end(), std::back_inserter(done.frames));
+  };
+  for (FrameOnWay& frame : batch.frames) take(stage.Next(std::move(frame)));
+  if (batch.last) take(stage.Rest());
+  return done;
+}
+
+}  // namespace
+
+void Restore(Frames& video, const VideoFacts& facts, const RestorePlan& plan,
+             const std::function<void(const FrameOnWay&)>& sink) {
+  constexpr size_t kBatchesAtOnce = 4;
+  constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
+  const std::vector<std::unique_ptr<Stage>> stages = StagesOf(plan, facts);
+  int64_t next = 0;
+  auto way = tbb::make_filter<void, Batch>(kInOrder, [&](tbb::flow_control& control) -> Batch {
+    if (next == facts.frames) {
+      control.stop();
+      return {};
+    }
+    const int64_t k = next++;
+    return {.frames = {{.index = k, .frame = video.Read(k), .steady = {}, .own = {}}},
+            .last = next == facts.frames};
+  });
+  for (const auto& stage : stages)
+    way &= tbb::make_filter<Batch, Batch>(
+        kInOrder, [&stage = *stage](Batch batch) { return Through(stage, std::move(batch)); });
+  tbb::parallel_pipeline(kBatchesAtOnce,
+                         way & tbb::make_filter<Batch, void>(kInOrder, [&](const Batch& batch) {
+                           for (const FrameOnWay& frame : batch.frames) sink(frame);
+                         }));
+}
+
+}  // namespace shimmer::restore

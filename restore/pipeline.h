@@ -1,0 +1,18 @@
+// Frames through the stages that a plan names, several at once: while one is read another is stabilised, and
+// so on. What comes out is the same on any number of threads.
+#pragma once
+
+#include <functional>
+
+#include "restore/frames.h"
+#include "restore/plan.h"
+#include "restore/stages.h"
+
+namespace shimmer::restore {
+
+// sink gets every frame, in order, and for one thread at a time. Memory: what the stages hold, and a few
+// frames between them, however long the video is. Throws what reading, a stage or the sink throws.
+void Restore(Frames& video, const VideoFacts& facts, const RestorePlan& plan,
+             const std::function<void(const FrameOnWay&)>& sink);
+
+}  // namespace shimmer::restore

@@ -1,0 +1,38 @@
+// What a video needs, decided once. Absent means skipped: this is the only place that asks what a video is
+// like, and the pipeline does what the plan says. A plan is a value: `unshimmer plan` prints it.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "restore/look.h"
+
+namespace shimmer::restore {
+
+enum class Border { kFill, kCrop };
+
+struct RestoreParams {
+  Border border = Border::kFill;
+  bool stabilise = true;  // false: as if the camera had stood
+  StabiliseParams shake = {};
+};
+
+struct RestorePlan {
+  cv::Size size;  // of the video, px
+  int64_t frames = 0;
+  bool grey = false;   // one channel is restored
+  bool alike = false;  // nothing changes: every result is the first frame
+  bool stabilise = false;
+  bool fill = false;                 // what a moved frame does not see is taken from its neighbours
+  cv::Rect area;                     // of the steady frame that is put out
+  std::vector<std::string> skipped;  // a line for each stage that is left out, and why
+
+  friend bool operator==(const RestorePlan&, const RestorePlan&) = default;
+};
+
+// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see.
+RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params);
+
+}  // namespace shimmer::restore

@@ -1,0 +1,154 @@
+#include "restore/stabilise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "restore/alignment.h"
+#include "restore/detail_level.h"
+#include "restore/translate.h"
+
+namespace shimmer::restore {
+namespace {
+
+constexpr int kLeastSide_px = 16;
+// Of the range: a 20th of an 8-bit step is rounding and no texture; below half a step it fades.
+constexpr double kFlatContrast = 2e-4, kLeastContrast = 2e-3;
+// Frames of other scenes correlate by up to 0.15 at the best of all shifts (0.6 where a frame is tiny);
+// frames of the same scene by 0.4 and more under strong turbulence. Noise lowers the correlation, but not
+// below chance.
+constexpr double kLeastCorrelation = 0.12, kLeastEvidence = 1.8;  // evidence: correlation * clearness
+
+double RangeOf(const cv::Mat& grey, int depth) {
+  if (depth == CV_8U) return 255;
+  if (depth == CV_16U) return 65535;
+  return std::max(cv::norm(grey, cv::NORM_INF), 1e-30);
+}
+
+}  // namespace
+
+struct Stabiliser::State {
+  cv::Size size;
+  int type;
+  LevelScales scales;
+  std::optional<Alignment> alignment = {};  // once a frame showed something
+  bool settled = false;                     // the first frames' shifts are given out
+  std::vector<FrameShift> held = {};        // until then
+  std::vector<FrameDetail> details = {};    // of those of them that were found
+  std::vector<Fit> fits = {};
+  cv::Point2d last_px = {};
+
+  FrameShift ShiftOf(const Fit& fit, Match match) const {
+    return {match == Match::kFound ? fit.fine_px * scales.fine : last_px,
+            match,
+            fit.correlation,
+            fit.clearness,
+            fit.common.scatter_px * scales.fine,
+            fit.common.error_px * scales.fine};
+  }
+
+  void Use(const FrameDetail& detail, const Fit& fit) {
+    alignment->Add(detail, fit.fine_px);
+    if (settled) return;
+    details.push_back(detail);
+    fits.push_back(fit);
+  }
+
+  FrameShift Fitted(const cv::Mat& frame, double max_shift_px);
+  void Settle();
+};
+
+FrameShift Stabiliser::State::Fitted(const cv::Mat& frame, double max_shift_px) {
+  const cv::Mat grey = ReducedGrey(frame, scales.fine);
+  const double range = RangeOf(grey, frame.depth());
+  const Detail fine = DetailOf(grey, kLeastContrast * range);
+  if (fine.contrast <= kFlatContrast * range) return {.px = last_px, .match = Match::kFlat};
+  const int ratio = scales.coarse / scales.fine;
+  const FrameDetail detail{
+      fine.values,
+      ratio == 1 ? fine.values : DetailOf(ReducedGrey(grey, ratio), kLeastContrast * range).values};
+  if (!alignment) {
+    // (the mean of the turbulence comes on top, and a peak needs neighbours)
+    const int margin = static_cast<int>(std::ceil(max_shift_px / scales.coarse)) + 2;
+    alignment.emplace(detail.fine.size(), detail.coarse.size(), ratio, margin);
+    const Fit first{.fine_px = {}, .correlation = 1, .common = {}};
+    Use(detail, first);
+    return ShiftOf(first, Match::kFound);
+  }
+  const std::optional<Fit> fit = alignment->Search(detail);
+  if (!fit) return {.px = last_px, .match = Match::kLost};
+  if (fit->correlation < kLeastCorrelation || fit->correlation * fit->clearness < kLeastEvidence)
+    return ShiftOf(*fit, Match::kLost);
+  Use(detail, *fit);
+  return ShiftOf(*fit, Match::kFound);
+}
+
+void Stabiliser::State::Settle() {
+  settled = true;
+  if (fits.empty()) return;  // nothing was to be seen
+  AlignTogether(details, fits, *alignment);
+  last_px = {};
+  size_t found = 0;
+  for (FrameShift& shift : held) {
+    if (shift.match == Match::kFound)
+      shift = ShiftOf(fits[found++], Match::kFound);
+    else
+      shift.px = last_px;
+    last_px = shift.px;
+  }
+  details.clear();
+  fits.clear();
+}
+
+Stabiliser::Stabiliser(StabiliseParams params) : params_(params) {
+  if (!std::isfinite(params.max_shift_px) || params.max_shift_px < 0)
+    throw std::invalid_argument("max_shift_px = " + std::to_string(params.max_shift_px) +
+                                ", must be 0 or more");
+  if (params.first_frames < 1)
+    throw std::invalid_argument("first_frames = " + std::to_string(params.first_frames) +
+                                ", must be 1 or more");
+}
+Stabiliser::~Stabiliser() = default;
+Stabiliser::Stabiliser(Stabiliser&&) noexcept = default;
+Stabiliser& Stabiliser::operator=(Stabiliser&&) noexcept = default;
+
+std::vector<FrameShift> Stabiliser::Next(const cv::Mat& frame) {
+  const int side = std::min(frame.cols, frame.rows);
+  if (side < kLeastSide_px)
+    throw std::invalid_argument("frame is " + std::to_string(frame.cols) + "x" + std::to_string(frame.rows) +
+                                " px, must be at least 16x16");
+  if (!state_)
+    state_ = std::make_unique<State>(State{frame.size(), frame.type(), LevelScalesOf(frame.size())});
+  if (frame.size() != state_->size || frame.type() != state_->type)
+    throw std::invalid_argument("frame is of another size or type than the first");
+  const double most_px = params_.max_shift_px > 0 ? params_.max_shift_px : side * 400.0 / 1080;
+  const FrameShift shift =
+      state_->Fitted(frame, std::min(most_px, static_cast<double>(std::max(frame.cols, frame.rows))));
+  state_->last_px = shift.px;
+  if (state_->settled) return {shift};
+  state_->held.push_back(shift);
+  return static_cast<int>(state_->held.size()) < params_.first_frames ? std::vector<FrameShift>{} : Rest();
+}
+
+std::vector<FrameShift> Stabiliser::Rest() {
+  if (!state_ || state_->settled) return {};
+  state_->Settle();
+  return std::exchange(state_->held, {});
+}
+
+bool IsSteady(std::span<const FrameShift> shifts) {
+  return std::all_of(shifts.begin(), shifts.end(), [](const FrameShift& shift) {
+    return std::abs(shift.px.x) < 0.5 && std::abs(shift.px.y) < 0.5;
+  });
+}
+
+cv::Rect CommonArea(std::span<const FrameShift> shifts, cv::Size size) {
+  cv::Rect area({0, 0}, size);
+  for (const FrameShift& shift : shifts) area &= SeenArea(size, shift.px);
+  return area;
+}
+
+}  // namespace shimmer::restore

@@ -1,0 +1,32 @@
+// The stages of restoration, each a step that frames go through in order.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "restore/look.h"
+#include "restore/plan.h"
+
+namespace shimmer::restore {
+
+// A frame on its way. What a stage that the plan leaves out would have made is empty.
+struct FrameOnWay {
+  int64_t index = 0;
+  cv::Mat frame;   // as it was read; then as the camera of the first frame would see it; then restored
+  cv::Mat steady;  // as it left stabilising; the frame itself where there is none
+  cv::Mat own;     // CV_8UC1: 255 where the frame saw it itself, 0 where it is filled
+};
+
+class Stage {
+ public:
+  virtual ~Stage() = default;
+  // The frames that are done now, in order. A stage may hold back some that need later ones.
+  virtual std::vector<FrameOnWay> Next(FrameOnWay frame) = 0;
+  virtual std::vector<FrameOnWay> Rest() = 0;  // after the last
+};
+
+// Those that the plan names, in order.
+std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const VideoFacts& facts);
+
+}  // namespace shimmer::restore

@@ -1,0 +1,165 @@
+#include "restore/pipeline.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <stdexcept>
+
+#include "restore/border_fill.h"
+#include "restore/translate.h"
+#include "tests/restore/frames.h"
+#include "tests/restore/wave_scene.h"
+
+namespace shimmer::restore {
+namespace {
+
+class MemoryFrames : public Frames {
+ public:
+  explicit MemoryFrames(std::vector<cv::Mat> frames) : frames_(std::move(frames)) {}
+  int64_t count() override { return std::ssize(frames_); }
+  cv::Mat Read(int64_t frame) override { return frames_.at(static_cast<size_t>(frame)); }
+
+ private:
+  std::vector<cv::Mat> frames_;
+};
+
+bool Same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+// A camera that wanders, in 8 bits.
+std::vector<cv::Mat> Shaken(int frames, cv::Size size = {160, 121}, int channels = 1, double most_px = 9) {
+  std::vector<cv::Mat> shaken;
+  for (int k = 0; k < frames; ++k) {
+    cv::Mat frame;
+    SeenFrame({.size = size, .shift = WanderingShift(k, most_px)}).convertTo(frame, CV_8U, 255);
+    shaken.push_back(channels == 1 ? frame : cv::Mat());
+    if (channels == 3) cv::merge(std::vector{frame, frame, frame}, shaken.back());
+  }
+  return shaken;
+}
+
+struct Outcome {
+  VideoFacts facts;
+  RestorePlan plan;
+  std::vector<FrameOnWay> frames;
+};
+
+Outcome RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {}) {
+  MemoryFrames frames(video);
+  Outcome run;
+  int64_t looked_at = 0;
+  run.facts = LookAt(frames, params.shake, [&] { ++looked_at; });
+  EXPECT_EQ(looked_at, frames.count());
+  run.plan = PlanRestore(run.facts, params);
+  Restore(frames, run.facts, run.plan, [&](const FrameOnWay& frame) {
+    EXPECT_EQ(frame.index, std::ssize(run.frames));
+    run.frames.push_back(frame);
+  });
+  EXPECT_EQ(std::ssize(run.frames), frames.count());
+  return run;
+}
+
+// More frames than are aligned together, and fewer; fewer than filling looks ahead.
+TEST(Restore, SteadiesAVideo) {
+  for (const int count : {2, 5, 31}) {
+    const std::vector<cv::Mat> video = Shaken(count);
+    const Outcome run = RunOn(video);
+    ASSERT_TRUE(run.plan.stabilise && run.plan.fill);
+    EXPECT_EQ(run.plan.area, cv::Rect({}, video[0].size()));
+    const cv::Rect seen_by_all = CommonArea(run.facts.shifts, video[0].size());
+    for (size_t k = 0; k < video.size(); ++k) {
+      EXPECT_LT(cv::norm(run.facts.shifts[k].px - WanderingShift(static_cast<int>(k), 9)), 0.1) << k;
+      // A resampled frame is the first one within its 8 bits and a tenth of a px of the scene's slopes.
+      const cv::Rect inner(seen_by_all.x + 4, seen_by_all.y + 4, seen_by_all.width - 8,
+                           seen_by_all.height - 8);
+      EXPECT_LT(cv::norm(run.frames[k].frame(inner), video[0](inner), cv::NORM_L1) / inner.area(), 2.5) << k;
+    }
+  }
+}
+
+TEST(Restore, CropsToWhatAllFramesSee) {
+  const std::vector<cv::Mat> video = Shaken(12, {150, 110}, 3);
+  const Outcome run = RunOn(video, {.border = Border::kCrop});
+  EXPECT_TRUE(run.facts.grey && run.plan.grey);
+  EXPECT_EQ(run.plan.area, CommonArea(run.facts.shifts, video[0].size()));
+  EXPECT_LT(run.plan.area.width, 150);
+  for (size_t k = 0; k < video.size(); ++k) {
+    cv::Mat grey;
+    cv::extractChannel(video[k], grey, 0);
+    EXPECT_TRUE(Same(run.frames[k].frame, Translated(grey, run.facts.shifts[k].px)(run.plan.area))) << k;
+  }
+}
+
+TEST(Restore, IsTheSameOnAnyNumberOfThreads) {
+  const std::vector<cv::Mat> video = Shaken(30);
+  const Outcome many = RunOn(video);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Outcome alone = RunOn(video);
+  for (size_t k = 0; k < video.size(); ++k)
+    EXPECT_TRUE(Same(many.frames[k].frame, alone.frames[k].frame)) << k;
+}
+
+// What needs nothing is put out bit by bit, and the plan says why.
+TEST(Restore, LeavesAloneWhatNeedsNothing) {
+  const cv::Mat picture = Noise({40, 30}, CV_8UC3, 1);
+  const std::pair<std::vector<cv::Mat>, const char*> cases[] = {
+      {{picture}, "everything: there is one frame"},
+      {std::vector<cv::Mat>(7, picture), "everything: all frames are the same"},
+      {std::vector<cv::Mat>(3, Flat({33, 21}, CV_16UC1, 0)), "everything: all frames are the same"}};
+  for (const auto& [video, why] : cases) {
+    const Outcome run = RunOn(video);
+    EXPECT_FALSE(run.plan.stabilise);
+    EXPECT_TRUE(run.plan.skipped.back().starts_with(why)) << run.plan.skipped.back();
+    for (const FrameOnWay& frame : run.frames) EXPECT_EQ(cv::norm(frame.frame, video[0], cv::NORM_INF), 0);
+  }
+  // A camera that stands: noise moves nothing by half a px.
+  std::vector<cv::Mat> standing;
+  for (uint32_t k = 0; k < 6; ++k)
+    standing.push_back(SeenFrame({.size = {120, 90}, .frame = k, .noise = 0.02}));
+  const Outcome run = RunOn(standing);
+  EXPECT_FALSE(run.plan.stabilise);
+  EXPECT_TRUE(run.plan.skipped.back().starts_with("stabilising: the camera stands"));
+  for (size_t k = 0; k < standing.size(); ++k) EXPECT_TRUE(Same(run.frames[k].frame, standing[k]));
+  EXPECT_FALSE(RunOn(Shaken(6), {.stabilise = false}).plan.stabilise);
+}
+
+TEST(LookAt, KnowsColourFromGreyInAnyDepth) {
+  for (const int depth : {CV_8U, CV_16U, CV_32F}) {
+    cv::Mat grey;
+    cv::merge(std::vector<cv::Mat>(3, Noise({20, 17}, CV_MAKETYPE(depth, 1), 3)), grey);
+    EXPECT_TRUE(RunOn({grey, grey}).facts.grey);
+    cv::Mat coloured = grey.clone();
+    coloured.row(16).col(19) = cv::Scalar(0, 1, 0);  // in the last px of the last frame
+    EXPECT_FALSE(RunOn({grey, coloured}).facts.grey) << depth;
+  }
+}
+
+TEST(PlanRestore, SaysWhereACropLeavesNothing) {
+  VideoFacts facts{.size = {100, 80}, .type = CV_8UC1, .frames = 2};
+  facts.shifts = {{}, {.px = {100, 0}}};
+  EXPECT_THROW(PlanRestore(facts, {.border = Border::kCrop}), std::invalid_argument);
+  EXPECT_NO_THROW(PlanRestore(facts, {}));
+}
+
+TEST(Restore, EndsWithWhatGoesWrong) {
+  class Broken : public MemoryFrames {
+   public:
+    using MemoryFrames::MemoryFrames;
+    cv::Mat Read(int64_t frame) override {
+      if (broken_ && frame == 3) throw std::runtime_error("3 is broken");
+      return MemoryFrames::Read(frame);
+    }
+    bool broken_ = false;
+  };
+  Broken video(Shaken(9));
+  const VideoFacts facts = LookAt(video, {}, [] {});
+  const RestorePlan plan = PlanRestore(facts, {});
+  EXPECT_THROW(Restore(video, facts, plan, [](const FrameOnWay&) { throw std::logic_error("full"); }),
+               std::logic_error);
+  video.broken_ = true;
+  EXPECT_THROW(Restore(video, facts, plan, [](const FrameOnWay&) {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace shimmer::restore
