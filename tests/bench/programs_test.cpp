@@ -137,7 +137,7 @@ TEST_F(Programs, GenerateMeasuresEveryCase) {
                                                   "' --out '" + folder_.string() + "' --json generate.json");
   ASSERT_EQ(ran.exit_code, 0) << ran.text;
   const Json json = Read("generate.json");
-  ASSERT_EQ(json.size(), 8u);
+  ASSERT_EQ(json.size(), 13u);
   for (const Json& row : json) {
     EXPECT_GT(row["clips_per_s"], 0) << row;
     EXPECT_GT(row["cpu_s_per_clip"], 0) << row;
