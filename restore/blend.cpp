@@ -27,7 +27,7 @@ cv::Mat BlendedOf(const cv::Mat& frame, const cv::Mat& background, const cv::Mat
     }
     return result;
   };
-  const std::vector<Sample4> surface = membrane.Solve(difference, kTolerance_levels);
+  const CellValues surface = membrane.Solve(difference, kTolerance_levels);
   cv::Mat blended = background.clone();
   for (const CellRun& run : membrane.runs()) {
     const auto* of = frame.ptr<Sample>(run.y);

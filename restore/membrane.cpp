@@ -13,10 +13,9 @@ constexpr size_t kFewCells = 32;  // that sweeps alone solve
 constexpr int kLastSweeps = 8;    // there and back
 constexpr int kMostSteps = 100;   // a mask that needs more than 10 was not found
 
-using Samples = std::vector<Sample4>;
 using Numbers = std::array<double, 4>;
 
-Numbers Dot(const Samples& a, const Samples& b) {
+Numbers Dot(const CellValues& a, const CellValues& b) {
   constexpr size_t kAtOnce = 512;  // in float: long sums in double
   Numbers sum{};
   for (size_t first = 0; first < a.size(); first += kAtOnce) {
@@ -33,7 +32,7 @@ Sample4 Ratio(const Numbers& a, const Numbers& b) {
   return ratio;
 }
 
-double Most(const Samples& samples) {
+double Most(const CellValues& samples) {
   float most = 0;
   for (const Sample4& sample : samples)
     for (size_t c = 0; c < 4; ++c) most = std::max(most, std::abs(sample.v[c]));
@@ -45,33 +44,34 @@ class Cycle {
  public:
   explicit Cycle(const std::vector<MaskGrid>& grids) : grids_(grids) {
     for (const MaskGrid& grid : grids)
-      at_.push_back({Samples(grid.size()), Samples(grid.size()), Samples(grid.size())});
+      at_.push_back({CellValues(grid.size()), CellValues(grid.size()), CellValues(grid.size()),
+                     CellValues(2 * grid.size())});
   }
 
   // The result holds until the next call.
-  const Samples& operator()(const Samples& b) {
+  const CellValues& operator()(const CellValues& b) {
     Descend(0, b);
     return at_[0].u;
   }
 
  private:
   struct Level {
-    Samples u, b, rest;
+    CellValues u, b, rest, halves;
   };
 
-  void Descend(size_t level, const Samples& b) {
+  void Descend(size_t level, const CellValues& b) {
     const MaskGrid& grid = grids_[level];
     Level& at = at_[level];
-    std::fill(at.u.begin(), at.u.end(), Sample4{});
     if (level + 1 == grids_.size()) {
+      std::fill(at.u.begin(), at.u.end(), Sample4{});
       for (int sweep = 0; sweep < kLastSweeps; ++sweep) SweepForward(grid, b, at.u), SweepBack(grid, b, at.u);
       return;
     }
-    SweepForward(grid, b, at.u);
-    Residual(grid, b, at.u, at.rest);
-    Gather(grid, grids_[level + 1], at.rest, at_[level + 1].b);
-    Descend(level + 1, at_[level + 1].b);
-    AddInterpolated(grid, grids_[level + 1], at_[level + 1].u, at.u);
+    FirstSweep(grid, b, at.u, at.rest);
+    Level& coarse = at_[level + 1];
+    Gather(grid, grids_[level + 1], at.rest, coarse.b, coarse.halves);
+    Descend(level + 1, coarse.b);
+    AddInterpolated(grid, grids_[level + 1], coarse.u, at.u, coarse.halves);
     SweepBack(grid, b, at.u);
   }
 
@@ -84,53 +84,49 @@ class Cycle {
 Membrane::Membrane(const cv::Mat& inside) : frame_({0, 0}, inside.size()) {
   if (inside.type() != CV_8UC1) throw std::invalid_argument("Membrane: inside must be CV_8UC1");
   levels_.push_back(GridOf(inside));
-  while (levels_.back().size() > kFewCells) {
+  while (levels_.back().cells() > kFewCells) {
     MaskGrid coarser = Coarser(levels_.back());
     if (coarser.size() == levels_.back().size()) break;  // px that do not touch one another
     levels_.push_back(std::move(coarser));
   }
 }
 
-std::vector<Sample4> Membrane::Solve(const std::function<Sample4(cv::Point)>& around,
-                                     double tolerance) const {
+CellValues Membrane::Solve(const std::function<Sample4(cv::Point)>& around, double tolerance) const {
   const MaskGrid& grid = levels_.front();
   // What the px around give, and their mean: only what differs from it is left to be solved.
-  Samples b(grid.size());
+  CellValues b(grid.size());
   Numbers sum{};
   double count = 0;
   for (const CellRun& run : grid.runs)
     for (int x = run.begin; x < run.end; ++x) {
       const auto i = static_cast<size_t>(run.first + x - run.begin);
-      const MaskGrid::Cell& cell = grid.cells[i];
-      if (cell.held == 0) continue;
-      const std::array<std::pair<int32_t, cv::Point>, 4> sides = {
-          std::pair(cell.left, cv::Point(x - 1, run.y)),
-          {cell.right, {x + 1, run.y}},
-          {cell.up, {x, run.y - 1}},
-          {cell.down, {x, run.y + 1}}};
-      for (const auto& [neighbour, px] : sides) {
-        if (neighbour != MaskGrid::kNone || !frame_.contains(px)) continue;
+      if (grid.held[i] == 0) continue;
+      const auto add = [&](bool is_cell, cv::Point px) {
+        if (is_cell || !frame_.contains(px)) return;
         const Sample4 value = around(px);
         b[i].v += value.v;
         for (size_t c = 0; c < 4; ++c) sum[c] += static_cast<double>(value.v[c]);
         ++count;
-      }
+      };
+      add(x > run.begin, {x - 1, run.y});
+      add(x + 1 < run.end, {x + 1, run.y});
+      add(grid.up[i] != 0, {x, run.y - 1});
+      add(grid.down[i] != 0, {x, run.y + 1});
     }
   const Sample4 mean = Ratio(sum, {count, count, count, count});
-  Samples u(grid.size(), mean);
+  CellValues u(grid.size(), mean);
   if (count == 0) return u;
-  for (size_t i = 0; i < grid.size(); ++i) b[i].v -= grid.cells[i].held * mean.v;
+  for (size_t i = 1; i + 1 < grid.size(); ++i) b[i].v -= grid.held[i] * mean.v;
 
   Cycle cycle(levels_);
-  Samples step(grid.size()), pull(grid.size());
-  const Samples zero(grid.size());
+  CellValues step(grid.size()), pull(grid.size());
   Numbers before{};
   for (int k = 0; k < kMostSteps; ++k) {  // b is what is left
-    const Samples& towards = cycle(b);
+    const CellValues& towards = cycle(b);
     const Numbers now = Dot(b, towards);
     const Sample4 keep = Ratio(now, before);
     for (size_t i = 0; i < grid.size(); ++i) step[i].v = towards[i].v + keep.v * step[i].v;
-    Residual(grid, zero, step, pull);  // -A step
+    Pull(grid, step, pull);
     Numbers along = Dot(step, pull);
     for (double& value : along) value = -value;
     const Sample4 length = Ratio(now, along);
@@ -139,7 +135,7 @@ std::vector<Sample4> Membrane::Solve(const std::function<Sample4(cv::Point)>& ar
       b[i].v += length.v * pull[i].v;
     }
     before = now;
-    if (Most(towards) <= tolerance) break;
+    if (Most(towards) <= 2 * tolerance) break;  // with this step taken, far less is left
   }
   return u;
 }

@@ -17,7 +17,7 @@ class Membrane {
   // inside: CV_8UC1, not 0 where u is asked for.
   explicit Membrane(const cv::Mat& inside);
 
-  // The px of the mask, in the order of Solve's values.
+  // The px of the mask, and their numbers in Solve's values.
   const std::vector<CellRun>& runs() const { return levels_.front().runs; }
 
   // around(p): u at a px p beside the mask (channels beyond the frame's 0); may be asked twice for it. The
@@ -26,7 +26,7 @@ class Membrane {
   //
   // Conjugate gradients, each step led by one cycle through grids of 2, 4, 8, ... px (multigrid: cells that
   // the mask touches, corrections interpolated bilinearly; McAdams et al. 2010 do so for liquids).
-  std::vector<Sample4> Solve(const std::function<Sample4(cv::Point)>& around, double tolerance) const;
+  CellValues Solve(const std::function<Sample4(cv::Point)>& around, double tolerance) const;
 
  private:
   cv::Rect frame_;
