@@ -17,6 +17,7 @@ namespace shimmer::restore {
 namespace {
 
 constexpr int kLeastSide_px = 16, kLargeSide_px = 1000;
+constexpr int kLeastFlow_px = 64;
 constexpr int kBand = 64;                  // rows that one thread takes at a time
 constexpr double kLeastRange = 1 / 255.0;  // of white: less is not stretched further
 
@@ -28,11 +29,17 @@ void RequireAtLeastOne(int value, const char* name) {
 }  // namespace
 
 PairFlow DisFlow() {
-  const cv::Ptr<cv::DISOpticalFlow> search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_FAST);
+  const cv::Ptr<cv::DISOpticalFlow> search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
   return [search](const cv::Mat& from, const cv::Mat& to) {
-    cv::Mat flow;
-    search->calc(from, to, flow);
-    return flow;
+    // The search asks for a size that its pyramid can halve: narrower frames go on beyond their edges.
+    const int wider = std::max(0, kLeastFlow_px - from.cols), higher = std::max(0, kLeastFlow_px - from.rows);
+    cv::Mat flow, a = from, b = to;
+    if (wider + higher > 0) {
+      cv::copyMakeBorder(from, a, 0, higher, 0, wider, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+      cv::copyMakeBorder(to, b, 0, higher, 0, wider, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+    }
+    search->calc(a, b, flow);
+    return flow({{0, 0}, from.size()});
   };
 }
 
@@ -78,8 +85,8 @@ Registration::Registration(RegisterParams params) : params_(std::move(params)) {
 
 // In levels, CV_32FC1, and its weights in [0, 1]; both reduced.
 cv::Mat Registration::GreyOf(const WeighedFrame& frame, cv::Mat& weight) const {
-  cv::Mat grey = ReducedGrey(frame.frame, scale_);
-  grey *= 255 / WhiteOf(frame.frame.depth());
+  cv::Mat grey;  // (what is reduced may be the frame itself)
+  ReducedGrey(frame.frame, scale_).convertTo(grey, CV_32F, 255 / WhiteOf(frame.frame.depth()));
   if (frame.weight.empty()) {
     weight = cv::Mat::ones(grey.size(), CV_32FC1);
   } else {

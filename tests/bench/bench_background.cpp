@@ -1,8 +1,7 @@
-// How good backgrounds are: clips of `shimmer generate` of a static scene, with the truth `tilt` on disk and one
-// clean frame. PSNR in dB against it of a frame, of the plain mean and median over time, and of ours without
-// and with registration, each the mean over the clip's frames; and the strength that was found beside the
-// true root mean square of the tilt, px along an axis.
-// Arguments: folders of data sets.
+// How good backgrounds are: clips of `shimmer generate` of a static scene, with the truth `tilt` on disk and
+// one clean frame. PSNR in dB against it of a frame, of the plain mean and median over time, and of ours
+// without and with registration, each the mean over the clip's frames; and the strength that was found beside
+// the true root mean square of the tilt, px along an axis. Arguments: folders of data sets.
 #include <algorithm>
 #include <array>
 #include <cmath>
