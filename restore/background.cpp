@@ -22,8 +22,7 @@ constexpr double kLeastRegistered_px = 0.25;
 constexpr int kFilledShare = 4;    // a filled px counts that many times less
 constexpr float kEnough = 0.25f;   // share of the weights that needs no background before
 constexpr float kNothing = 0.01f;  // share of the weights that is as good as nothing
-constexpr int kPiece_px = 256;     // of a row; its sums stay in the first cache
-constexpr int kChannels = 3;       // at most
+constexpr int kPiece_px = 128;     // of a row; its sums stay in the first cache
 
 int PiecesOf(int cols) { return (cols + kPiece_px - 1) / kPiece_px; }
 
@@ -52,32 +51,31 @@ struct Before {
 };
 
 // The mean of a piece of px, and where it is seen.
-template <class Sample>
-void MeanOf(const std::vector<Part>& parts, const Before& before, int px, int channels, uint8_t* to_bytes,
-            uint8_t* seen) {
+template <class Sample, int kChannels>
+void MeanOf(const std::vector<Part>& parts, const Before& before, int px, uint8_t* to_bytes, uint8_t* seen) {
   std::array<float, kPiece_px * kChannels> sum{}, as_they_are{};
   std::array<float, kPiece_px> weights{};
-  const int count = px * channels;
+  const int count = px * kChannels;
   float full = 0, all = 0;  // weights of all px of parts that have no mask; and of all parts
-  const Part* waits = nullptr;
   bool masked = false;
   const auto samples = [](const Part& part) { return reinterpret_cast<const Sample*>(part.row); };
+  std::array<const Sample*, 4> rows{};  // that wait for others, to be added at once
+  std::array<float, 4> shares{};
+  size_t waiting = 0;
   for (const Part& part : parts) {
     all += part.gaussian;
     if (part.weight != nullptr) {
-      AddWeighed(samples(part), part.weight, part.gaussian, px, channels, sum.data(), weights.data());
+      AddWeighed<kChannels>(samples(part), part.weight, part.gaussian, px, sum.data(), weights.data());
       masked = true;
       continue;
     }
     full += part.gaussian;
-    if (waits == nullptr) {
-      waits = &part;
-      continue;
-    }
-    AddSamples(samples(*waits), samples(part), waits->gaussian, part.gaussian, count, sum.data());
-    waits = nullptr;
+    rows[waiting] = samples(part), shares[waiting] = part.gaussian;
+    if (++waiting < rows.size()) continue;
+    AddSamples(rows, shares, count, sum.data());
+    waiting = 0;
   }
-  if (waits != nullptr) AddSamples(samples(*waits), waits->gaussian, count, sum.data());
+  for (size_t k = 0; k < waiting; ++k) AddSamples(rows[k], shares[k], count, sum.data());
 
   auto* to = reinterpret_cast<Sample*>(to_bytes);
   std::fill(seen, seen + px, uint8_t{255});
@@ -97,7 +95,7 @@ void MeanOf(const std::vector<Part>& parts, const Before& before, int px, int ch
       mixed = true;
     }
     const auto* last = reinterpret_cast<const Sample*>(before.row);
-    for (int i = x * channels; i < (x + 1) * channels; ++i) {
+    for (int i = x * kChannels; i < (x + 1) * kChannels; ++i) {
       const auto k = static_cast<size_t>(i);
       float value = sum[k];
       if (missing > 0) value += missing * (known ? static_cast<float>(last[i]) : as_they_are[k]);
@@ -107,7 +105,12 @@ void MeanOf(const std::vector<Part>& parts, const Before& before, int px, int ch
   }
 }
 
-using MeanOfPiece = void (*)(const std::vector<Part>&, const Before&, int, int, uint8_t*, uint8_t*);
+using MeanOfPiece = void (*)(const std::vector<Part>&, const Before&, int, uint8_t*, uint8_t*);
+
+template <class Sample>
+MeanOfPiece MeanOfChannels(int channels) {
+  return channels == 1 ? MeanOf<Sample, 1> : MeanOf<Sample, 3>;
+}
 
 }  // namespace
 
@@ -178,9 +181,9 @@ BackgroundFrame Background::Mean() const {
   const int pieces = PiecesOf(size_.width), channels = CV_MAT_CN(type_);
   const auto px_bytes = static_cast<int>(CV_ELEM_SIZE(type_));
   const int depth = CV_MAT_DEPTH(type_);
-  const MeanOfPiece mean_of = depth == CV_8U    ? MeanOf<uint8_t>
-                              : depth == CV_16U ? MeanOf<uint16_t>
-                                                : MeanOf<float>;
+  const MeanOfPiece mean_of = depth == CV_8U    ? MeanOfChannels<uint8_t>(channels)
+                              : depth == CV_16U ? MeanOfChannels<uint16_t>(channels)
+                                                : MeanOfChannels<float>(channels);
   const size_t end = std::min(window_.size(), at_ + static_cast<size_t>(params_.ahead) + 1);
   tbb::parallel_for(0, (size_.height + kRowsAtOnce - 1) / kRowsAtOnce, [&](int band) {
     std::vector<Part> parts;
@@ -198,7 +201,7 @@ BackgroundFrame Background::Mean() const {
         Before before{nullptr, nullptr};
         if (!before_.frame.empty())
           before = {before_.frame.ptr(y) + first * px_bytes, before_.seen.ptr(y) + first};
-        mean_of(parts, before, px, channels, mean.frame.ptr(y) + first * px_bytes, mean.seen.ptr(y) + first);
+        mean_of(parts, before, px, mean.frame.ptr(y) + first * px_bytes, mean.seen.ptr(y) + first);
       }
   });
   return mean;

@@ -24,7 +24,8 @@ struct BackgroundParams {
 
 // The stated rule. The window grows with the tilt: ahead = 14 frames for every px of its root mean square
 // along an axis, 14 at most: from 1 frame where there is none to 29 from 1 px on. Frames are registered
-// (kAuto) where that root mean square is 0.25 px or more: for less, the flow's own error is as large.
+// (kAuto) where that root mean square is 0.25 px or more: on clips of Shimmer's that gave 0.15 dB at 0.25 px,
+// but 0.03 dB at 0.12 px.
 BackgroundParams BackgroundFor(const TurbulenceStrength& strength, Register registered);
 
 struct BackgroundFrame {

@@ -10,8 +10,8 @@ namespace shimmer::restore {
 // from, to: CV_8UC1 of one size. The result is CV_32FC2 of that size, px: from(p) is seen at to(p + flow(p)).
 using PairFlow = std::function<cv::Mat(const cv::Mat& from, const cv::Mat& to)>;
 
-// Dense inverse search (Kroeger et al. 2016) as OpenCV has it, its preset "medium": "fast" stops at a quarter of the
-// size, where most of the turbulence is not to be seen. For one thread at a time.
+// Dense inverse search (Kroeger et al. 2016) as OpenCV has it, its preset "medium": "fast" stops at a quarter
+// of the size, where most of the turbulence is not to be seen. For one thread at a time.
 PairFlow DisFlow();
 
 // A frame and how much each of its px counts.
