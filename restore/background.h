@@ -19,7 +19,7 @@ struct BackgroundParams {
   // sigma = ahead / 2 frames. 0: each frame by itself.
   int ahead = 14;
   bool registered = false;  // to their mean before the mean is taken (register.h)
-  PairFlow flow = DisFlow();
+  PairFlow flow = FineFlow();
 };
 
 // The stated rule. The window grows with the tilt: ahead = 14 frames for every px of its root mean square

@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <memory>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "restore/detail_level.h"
+#include "restore/flow.h"
 #include "restore/levels.h"
 
 namespace shimmer::restore {
 namespace {
 
 constexpr int kLeastSide_px = 16, kLargeSide_px = 1000;
-constexpr int kLeastFlow_px = 64;
 constexpr int kBand = 64;                  // rows that one thread takes at a time
 constexpr double kLeastRange = 1 / 255.0;  // of white: less is not stretched further
 
@@ -28,19 +27,9 @@ void RequireAtLeastOne(int value, const char* name) {
 
 }  // namespace
 
-PairFlow DisFlow() {
-  const cv::Ptr<cv::DISOpticalFlow> search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
-  return [search](const cv::Mat& from, const cv::Mat& to) {
-    // The search asks for a size that its pyramid can halve: narrower frames go on beyond their edges.
-    const int wider = std::max(0, kLeastFlow_px - from.cols), higher = std::max(0, kLeastFlow_px - from.rows);
-    cv::Mat flow, a = from, b = to;
-    if (wider + higher > 0) {
-      cv::copyMakeBorder(from, a, 0, higher, 0, wider, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-      cv::copyMakeBorder(to, b, 0, higher, 0, wider, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-    }
-    search->calc(a, b, flow);
-    return flow({{0, 0}, from.size()});
-  };
+PairFlow FineFlow() {
+  return [flow = std::shared_ptr<DenseFlow>(DisFlow(DisPreset::kMedium))](
+             const cv::Mat& from, const cv::Mat& to) { return flow->Flow(from, to); };
 }
 
 WeighedFrame Warped(const WeighedFrame& in, const cv::Mat& flow) {

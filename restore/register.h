@@ -10,9 +10,9 @@ namespace shimmer::restore {
 // from, to: CV_8UC1 of one size. The result is CV_32FC2 of that size, px: from(p) is seen at to(p + flow(p)).
 using PairFlow = std::function<cv::Mat(const cv::Mat& from, const cv::Mat& to)>;
 
-// Dense inverse search (Kroeger et al. 2016) as OpenCV has it, its preset "medium": "fast" stops at a quarter
-// of the size, where most of the turbulence is not to be seen. For one thread at a time.
-PairFlow DisFlow();
+// OpenCV's dense inverse search, its preset "medium" (flow.h): "fast" stops at a quarter of the size, where
+// most of the turbulence is not to be seen. For one thread at a time.
+PairFlow FineFlow();
 
 // A frame and how much each of its px counts.
 struct WeighedFrame {
@@ -28,7 +28,7 @@ struct RegisterParams {
   int first_frames = 15;       // whose mean is the first reference; at least 1
   int frames_a_keyframe = 15;  // after so many frames the mean of all so far is the reference; at least 1
   int memory_frames = 120;     // what the mean forgets after; at least 1
-  PairFlow flow = DisFlow();
+  PairFlow flow = FineFlow();
 };
 
 // One flow a frame, and one more a keyframe, from the reference to the frame, both grey and at half their

@@ -84,10 +84,11 @@ SceneFacts LookAtScene(Frames& video, std::span<const FrameShift> shifts, bool g
   StrengthEstimate strength;
   for (const int place : places) {
     const SteadyFrame steady = reader.Read(place);
-    const cv::Mat moving = MovingAt(facts.segment, steady);
-    facts.moving_share += cv::mean(moving)[0] / 255 / static_cast<double>(places.size());
-    strength.Add(steady.frame, moving | ~steady.own);
+    const cv::Mat moving = MovingAt(facts.segment, steady);  // empty: not known of a frame alone
+    if (!moving.empty()) facts.moving_share += cv::mean(moving)[0] / 255 / static_cast<double>(places.size());
+    strength.Add(steady.frame, moving.empty() ? ~steady.own : moving | ~steady.own);
   }
+  if (method == SegmentMethod::kAof) facts.moving_share = facts.segment.aof.threshold_px > 0;
   facts.strength = strength.Result();
   return facts;
 }

@@ -15,7 +15,8 @@ namespace shimmer::restore {
 
 struct SceneFacts {
   SegmentSettings segment;
-  double moving_share = 0;  // of the frames looked at, what moves in them
+  double moving_share =
+      0;  // of the frames looked at, what moves in them; kAof: 1 or 0, whether anything does
   TurbulenceStrength strength;
 };
 

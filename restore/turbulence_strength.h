@@ -51,9 +51,9 @@ struct TurbulenceStrength {
 // is (G - g) / (ln G - ln g), which is used; for small tilts it is what the equation says. Sums over
 // squares, so that texture weighs as much as it tells; squares of more than 6 times the median are no air.
 //
-// Within 10 % of the root mean square up to 3 px where the air's waves are 20 px or longer. Where tilts are as
-// large as the waves are short, smoothing hides some of it: clips of Shimmer of 0.49, 0.98, 1.97 and 4.9 px
-// are found to have 0.46 to 0.50, 0.86 to 0.94, 1.5 to 1.7 and 2.8 to 3.1.
+// Within 10 % of the root mean square up to 3 px where the air's waves are 20 px or longer. Where tilts are
+// as large as the waves are short, smoothing hides some of it: clips of Shimmer of 0.49, 0.98, 1.97 and 4.9
+// px are found to have 0.46 to 0.50, 0.86 to 0.94, 1.5 to 1.7 and 2.8 to 3.1.
 class StrengthEstimate {
  public:
   // frame: CV_8U, CV_16U or CV_32F of 1 or 3 channels, 16x16 px or more, of the size and type of the first.
