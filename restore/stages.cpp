@@ -25,21 +25,38 @@ class OneChannel : public Stage {
   std::vector<FrameOnWay> Rest() override { return {}; }
 };
 
-// Moved to where the first frame's camera saw it, and cut to what all frames see.
-class Crop : public Stage {
+// Moved to where the first frame's camera saw it.
+class Move : public Stage {
  public:
-  Crop(const RestorePlan& plan, const VideoFacts& facts) : area_(plan.area), shifts_(facts.shifts) {}
+  explicit Move(const VideoFacts& facts) : shifts_(facts.shifts) {}
 
   std::vector<FrameOnWay> Next(FrameOnWay frame) override {
     const cv::Point2d shift_px = shifts_[static_cast<size_t>(frame.index)].px;
-    frame.frame = Translated(frame.frame, shift_px)(area_);
+    frame.frame = Translated(frame.frame, shift_px);
+    frame.own = cv::Mat::zeros(frame.frame.size(), CV_8UC1);
+    frame.own(SeenArea(frame.frame.size(), shift_px)).setTo(255);
+    return {frame};
+  }
+  std::vector<FrameOnWay> Rest() override { return {}; }
+
+ private:
+  const std::vector<FrameShift>& shifts_;
+};
+
+// Cut to what all frames see, once nothing else is to be done: all stages work on frames of one size.
+class Cut : public Stage {
+ public:
+  explicit Cut(cv::Rect area) : area_(area) {}
+
+  std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    for (cv::Mat* picture : {&frame.frame, &frame.steady, &frame.own, &frame.mask, &frame.background})
+      if (!picture->empty()) *picture = (*picture)(area_);
     return {frame};
   }
   std::vector<FrameOnWay> Rest() override { return {}; }
 
  private:
   cv::Rect area_;
-  const std::vector<FrameShift>& shifts_;
 };
 
 // The same, and what it does not see filled from its neighbours.
@@ -168,7 +185,7 @@ std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const Vide
   if (plan.fill)
     stages.push_back(std::make_unique<Fill>(facts));
   else if (plan.stabilise)
-    stages.push_back(std::make_unique<Crop>(plan, facts));
+    stages.push_back(std::make_unique<Move>(facts));
   stages.push_back(std::make_unique<Keep>());
   if (plan.segment) stages.push_back(std::make_unique<Segment>(facts.scene->segment));
   if (plan.stack) {
@@ -176,6 +193,7 @@ std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const Vide
         std::make_unique<Stack>(BackgroundParams{.ahead = plan.ahead, .registered = plan.registered}));
     stages.push_back(std::make_unique<Blend>());
   }
+  if (plan.area.size() != plan.size) stages.push_back(std::make_unique<Cut>(plan.area));
   return stages;
 }
 
