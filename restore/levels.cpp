@@ -9,17 +9,13 @@
 namespace shimmer::restore {
 namespace {
 
-double WhiteOf(const cv::Mat& frame) {
-  return frame.depth() == CV_8U ? 255 : frame.depth() == CV_16U ? 65535 : 1;
-}
-
 std::string SizeText(const cv::Mat& frame) {
   return std::to_string(frame.cols) + "x" + std::to_string(frame.rows);
 }
 
 template <class Sample>
 cv::Mat LevelsOf(const cv::Mat& frame, cv::Range rows) {
-  const double white = WhiteOf(frame);
+  const double white = WhiteOf(frame.depth());
   const int samples = frame.cols * frame.channels();
   cv::Mat levels(rows.size(), frame.cols, CV_64FC(frame.channels()));
   for (int y = rows.start; y < rows.end; ++y) {
@@ -34,6 +30,8 @@ cv::Mat LevelsOf(const cv::Mat& frame, cv::Range rows) {
 }
 
 }  // namespace
+
+double WhiteOf(int depth) { return depth == CV_8U ? 255 : depth == CV_16U ? 65535 : 1; }
 
 void RequireFrame(const cv::Mat& frame, const char* name) {
   const int depth = frame.depth(), channels = frame.channels();

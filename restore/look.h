@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "restore/frames.h"
+#include "restore/scene_look.h"
 #include "restore/stabilise.h"
 
 namespace shimmer::restore {
@@ -18,6 +20,7 @@ struct VideoFacts {
   bool grey = false;   // one channel, or three that are equal in every px of every frame
   bool alike = false;  // every frame is the first one, bit by bit
   std::vector<FrameShift> shifts;
+  std::optional<SceneFacts> scene;  // where frames are to be stacked: LookAtScene's
 };
 
 // step: called after each frame. Throws std::invalid_argument for frames that Stabiliser refuses, and what

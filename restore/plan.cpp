@@ -22,6 +22,48 @@ double MostShift_px(const VideoFacts& facts) {
   return most_px;
 }
 
+void PlanSteadying(const VideoFacts& facts, const RestoreParams& params, RestorePlan& plan) {
+  if (!params.stabilise || IsSteady(facts.shifts)) {
+    plan.skipped.push_back(params.stabilise
+                               ? "stabilising: the camera stands (it is off its place by up to " +
+                                     Px(MostShift_px(facts)) + ")"
+                               : "stabilising: it is switched off");
+    return;
+  }
+  plan.stabilise = true;
+  plan.fill = params.border == Border::kFill;
+  if (plan.fill) return;
+  plan.area = CommonArea(facts.shifts, facts.size);
+  if (plan.area.empty())
+    throw std::invalid_argument("border = crop leaves nothing: no px is on all frames, shifts reach " +
+                                Px(MostShift_px(facts)) + ". Must be fill, or a shorter part of the video");
+}
+
+// Below it the tilt is less than what the averaging of frames itself makes softer.
+constexpr double kLeastTilt_px = 0.05;
+
+void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan& plan) {
+  if (!params.stack || !facts.scene) {
+    plan.skipped.push_back("segmenting, stacking and blending: they are switched off");
+    return;
+  }
+  const double tilt_px = std::sqrt(facts.scene->strength.tilt_variance_px2);
+  if (tilt_px < kLeastTilt_px) {
+    plan.skipped.push_back(
+        "segmenting, stacking and blending: the turbulence is too weak to need them (a tilt of " +
+        Px(tilt_px) + ")");
+    return;
+  }
+  const BackgroundParams background = BackgroundFor(facts.scene->strength, params.registered);
+  plan.stack = true;
+  plan.ahead = background.ahead;
+  plan.registered = background.registered;
+  plan.segment = params.segment && facts.scene->moving_share > 0;
+  if (!plan.segment)
+    plan.skipped.push_back(std::string("segmenting and blending: ") +
+                           (params.segment ? "nothing moves" : "they are switched off"));
+}
+
 }  // namespace
 
 RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params) {
@@ -37,19 +79,8 @@ RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params) {
                            : "everything: all frames are the same");
     return plan;
   }
-  if (!params.stabilise)
-    skip("stabilising: it is switched off");
-  else if (IsSteady(facts.shifts))
-    skip("stabilising: the camera stands (it is off its place by up to " + Px(MostShift_px(facts)) + ")");
-  else
-    plan.stabilise = true;
-  if (!plan.stabilise) return plan;
-  plan.fill = params.border == Border::kFill;
-  if (plan.fill) return plan;
-  plan.area = CommonArea(facts.shifts, facts.size);
-  if (plan.area.empty())
-    throw std::invalid_argument("border = crop leaves nothing: no px is on all frames, shifts reach " +
-                                Px(MostShift_px(facts)) + ". Must be fill, or a shorter part of the video");
+  PlanSteadying(facts, params, plan);
+  PlanScene(facts, params, plan);
   return plan;
 }
 

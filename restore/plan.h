@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "restore/background.h"
 #include "restore/look.h"
 
 namespace shimmer::restore {
@@ -17,6 +18,10 @@ struct RestoreParams {
   Border border = Border::kFill;
   bool stabilise = true;  // false: as if the camera had stood
   StabiliseParams shake = {};
+  bool segment = true;  // false: as if nothing moved
+  SegmentMethod method = SegmentMethod::kFused;
+  bool stack = true;  // false: the turbulence stays as it is
+  Register registered = Register::kAuto;
 };
 
 struct RestorePlan {
@@ -27,6 +32,10 @@ struct RestorePlan {
   bool stabilise = false;
   bool fill = false;                 // what a moved frame does not see is taken from its neighbours
   cv::Rect area;                     // of the steady frame that is put out
+  bool segment = false;              // what moves is found, left out of the background and laid back into it
+  bool stack = false;                // each frame's background is the mean of those around it
+  int ahead = 0;                     // of them on either side
+  bool registered = false;           // to one another before that
   std::vector<std::string> skipped;  // a line for each stage that is left out, and why
 
   friend bool operator==(const RestorePlan&, const RestorePlan&) = default;

@@ -3,11 +3,18 @@
 #include <deque>
 #include <utility>
 
+#include "restore/background.h"
+#include "restore/blend.h"
 #include "restore/border_fill.h"
+#include "restore/segment.h"
 #include "restore/translate.h"
 
 namespace shimmer::restore {
 namespace {
+
+cv::Mat OwnOf(const FrameOnWay& frame) {
+  return frame.own.empty() ? cv::Mat(frame.frame.size(), CV_8UC1, cv::Scalar(255)) : frame.own;
+}
 
 class OneChannel : public Stage {
  public:
@@ -18,21 +25,38 @@ class OneChannel : public Stage {
   std::vector<FrameOnWay> Rest() override { return {}; }
 };
 
-// Moved to where the first frame's camera saw it, and cut to what all frames see.
-class Crop : public Stage {
+// Moved to where the first frame's camera saw it.
+class Move : public Stage {
  public:
-  Crop(const RestorePlan& plan, const VideoFacts& facts) : area_(plan.area), shifts_(facts.shifts) {}
+  explicit Move(const VideoFacts& facts) : shifts_(facts.shifts) {}
 
   std::vector<FrameOnWay> Next(FrameOnWay frame) override {
     const cv::Point2d shift_px = shifts_[static_cast<size_t>(frame.index)].px;
-    frame.frame = Translated(frame.frame, shift_px)(area_);
+    frame.frame = Translated(frame.frame, shift_px);
+    frame.own = cv::Mat::zeros(frame.frame.size(), CV_8UC1);
+    frame.own(SeenArea(frame.frame.size(), shift_px)).setTo(255);
+    return {frame};
+  }
+  std::vector<FrameOnWay> Rest() override { return {}; }
+
+ private:
+  const std::vector<FrameShift>& shifts_;
+};
+
+// Cut to what all frames see, once nothing else is to be done: all stages work on frames of one size.
+class Cut : public Stage {
+ public:
+  explicit Cut(cv::Rect area) : area_(area) {}
+
+  std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    for (cv::Mat* picture : {&frame.frame, &frame.steady, &frame.own, &frame.mask, &frame.background})
+      if (!picture->empty()) *picture = (*picture)(area_);
     return {frame};
   }
   std::vector<FrameOnWay> Rest() override { return {}; }
 
  private:
   cv::Rect area_;
-  const std::vector<FrameShift>& shifts_;
 };
 
 // The same, and what it does not see filled from its neighbours.
@@ -75,6 +99,84 @@ class Keep : public Stage {
   std::vector<FrameOnWay> Rest() override { return {}; }
 };
 
+// Frames that wait for what a stage finds out about them, which comes in their order.
+class Waiting {
+ public:
+  void Add(FrameOnWay frame) { frames_.push_back(std::move(frame)); }
+
+  FrameOnWay Take() {
+    FrameOnWay frame = std::move(frames_.front());
+    frames_.pop_front();
+    return frame;
+  }
+
+ private:
+  std::deque<FrameOnWay> frames_;
+};
+
+class Segment : public Stage {
+ public:
+  explicit Segment(const SegmentSettings& settings) : segmenter_(settings) {}
+
+  std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    waiting_.Add(frame);
+    return WithMask(segmenter_.Next({frame.frame, OwnOf(frame)}));
+  }
+  std::vector<FrameOnWay> Rest() override {
+    std::vector<FrameOnWay> done;
+    while (auto mask = segmenter_.Rest()) done.push_back(WithMask(std::move(mask)).front());
+    return done;
+  }
+
+ private:
+  std::vector<FrameOnWay> WithMask(std::optional<cv::Mat> mask) {
+    if (!mask) return {};
+    FrameOnWay frame = waiting_.Take();
+    frame.mask = *mask;
+    return {frame};
+  }
+
+  Segmenter segmenter_;
+  Waiting waiting_;
+};
+
+class Stack : public Stage {
+ public:
+  explicit Stack(const BackgroundParams& params) : background_(params) {}
+
+  std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    waiting_.Add(frame);
+    return WithBackground(background_.Next({frame.frame, frame.own}, frame.mask));
+  }
+  std::vector<FrameOnWay> Rest() override {
+    std::vector<FrameOnWay> done;
+    while (auto background = background_.Rest())
+      done.push_back(WithBackground(std::move(background)).front());
+    return done;
+  }
+
+ private:
+  std::vector<FrameOnWay> WithBackground(std::optional<BackgroundFrame> background) {
+    if (!background) return {};
+    FrameOnWay frame = waiting_.Take();
+    frame.background = background->frame;
+    return {frame};
+  }
+
+  Background background_;
+  Waiting waiting_;
+};
+
+// What moves laid into the background; without it the background is the result.
+class Blend : public Stage {
+ public:
+  std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    frame.frame = frame.mask.empty() ? frame.background : Blended(frame.frame, frame.background, frame.mask);
+    return {frame};
+  }
+  std::vector<FrameOnWay> Rest() override { return {}; }
+};
+
 }  // namespace
 
 std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const VideoFacts& facts) {
@@ -83,8 +185,15 @@ std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const Vide
   if (plan.fill)
     stages.push_back(std::make_unique<Fill>(facts));
   else if (plan.stabilise)
-    stages.push_back(std::make_unique<Crop>(plan, facts));
+    stages.push_back(std::make_unique<Move>(facts));
   stages.push_back(std::make_unique<Keep>());
+  if (plan.segment) stages.push_back(std::make_unique<Segment>(facts.scene->segment));
+  if (plan.stack) {
+    stages.push_back(
+        std::make_unique<Stack>(BackgroundParams{.ahead = plan.ahead, .registered = plan.registered}));
+    stages.push_back(std::make_unique<Blend>());
+  }
+  if (plan.area.size() != plan.size) stages.push_back(std::make_unique<Cut>(plan.area));
   return stages;
 }
 

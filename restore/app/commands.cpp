@@ -49,6 +49,21 @@ int RunUnshimmer(int argc, const char* const* argv, const std::atomic<bool>& (*l
         ->transform(CLI::CheckedTransformer(
             std::map<std::string, Border>{{"fill", Border::kFill}, {"crop", Border::kCrop}}));
     command.add_flag("!--no-stabilise", restore.params.stabilise, "take the camera to have stood");
+    command
+        .add_option(
+            "--segment", restore.params.method,
+            "how what moves is found: fused, by what lies outside of the still scene (default), or aof, the "
+            "paper's averaged flow")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, SegmentMethod>{
+            {"fused", SegmentMethod::kFused}, {"aof", SegmentMethod::kAof}}));
+    command
+        .add_option("--register", restore.params.registered,
+                    "whether frames are registered to one another before they are averaged: auto (default), "
+                    "on or off")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Register>{
+            {"auto", Register::kAuto}, {"on", Register::kOn}, {"off", Register::kOff}}));
+    command.add_flag("!--no-segment", restore.params.segment, "take it that nothing moves");
+    command.add_flag("!--no-stack", restore.params.stack, "leave the turbulence as it is: stabilise alone");
     command.add_option("--threads", restore.threads, "number of threads (default: all)")
         ->check(CLI::Range(1, 4096));
     command.add_flag("--quiet", restore.quiet, "no progress");

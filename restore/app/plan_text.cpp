@@ -38,12 +38,20 @@ std::string ShakeText(const VideoFacts& facts) {
   std::string text = "shake     up to " + Decimals(most_px) + " px\n";
   if (!scatter_px.empty()) {
     std::ranges::nth_element(scatter_px, scatter_px.begin() + std::ssize(scatter_px) / 2);
-    text += "tilt      about " + Decimals(scatter_px[scatter_px.size() / 2]) + " px\n";
+    text += "scatter   about " + Decimals(scatter_px[scatter_px.size() / 2]) + " px, of blocks of a frame\n";
   }
   if (flat > 0) text += cli::Counted(flat, "frame") + " of one colour: they stay where the one before is\n";
   if (lost > 0)
     text += cli::Counted(lost, "frame") + " unlike the others: they stay where the one before is\n";
   return text;
+}
+
+// How strong the air is, and how much moves.
+std::string SceneText(const SceneFacts& scene) {
+  std::string text = "tilt      " + Decimals(std::sqrt(scene.strength.tilt_variance_px2)) +
+                     " px along an axis, in " + Decimals(100 * scene.strength.texture) +
+                     " % of the picture\n";
+  return text + "moving    " + Decimals(100 * scene.moving_share) + " % of the picture\n";
 }
 
 }  // namespace
@@ -54,6 +62,11 @@ std::string PlanText(const VideoFacts& facts, const RestorePlan& plan) {
                      ShakeText(facts);
   std::string stages;
   if (plan.stabilise) stages += plan.fill ? ", stabilise and fill" : ", stabilise and crop";
+  if (plan.segment) stages += ", segment";
+  if (plan.stack)
+    stages += ", stack " + cli::Counted(2 * plan.ahead + 1, "frame") +
+              (plan.registered ? " registered" : "") + (plan.segment ? ", blend" : "");
+  if (facts.scene) text += SceneText(*facts.scene);
   text += "stages    " + (stages.empty() ? "none" : stages.substr(2)) + "\n";
   if (plan.area.size() != plan.size)
     text += "area      " + std::to_string(plan.area.width) + "x" + std::to_string(plan.area.height) +
@@ -75,6 +88,12 @@ Json PlanJson(const VideoFacts& facts, const RestorePlan& plan) {
           {"stabilise", plan.stabilise},
           {"fill", plan.fill},
           {"area", {plan.area.x, plan.area.y, plan.area.width, plan.area.height}},
+          {"segment", plan.segment},
+          {"stack", plan.stack},
+          {"ahead", plan.ahead},
+          {"registered", plan.registered},
+          {"tilt_variance_px2", facts.scene ? Json(facts.scene->strength.tilt_variance_px2) : Json()},
+          {"moving_share", facts.scene ? Json(facts.scene->moving_share) : Json()},
           {"skipped", plan.skipped},
           {"shifts_px", std::move(shifts)},
           {"matches", std::move(matches)}};

@@ -50,8 +50,18 @@ class Threads {
 };
 
 VideoFacts Look(const RestoreOptions& options, Frames& video) {
-  cli::Progress progress("frames looked at", video.count(), 0, options.quiet);
-  return LookAt(video, options.params.shake, [&] { progress.Step(); });
+  const RestoreParams& params = options.params;
+  VideoFacts facts;
+  {
+    cli::Progress progress("frames looked at", video.count(), 0, options.quiet);
+    facts = LookAt(video, params.shake, [&] { progress.Step(); });
+  }
+  if (facts.alike || !params.stack) return facts;
+  cli::Progress progress("places looked at", ReadsOfLook(facts.frames), 0, options.quiet);
+  const bool moved = params.stabilise && !IsSteady(facts.shifts);
+  facts.scene = LookAtScene(video, moved ? facts.shifts : std::vector<FrameShift>(), facts.grey,
+                            params.method, [&] { progress.Step(); });
+  return facts;
 }
 
 void Run(const RestoreOptions& options, dataset::FrameReader& reader, const std::atomic<bool>& stop) {

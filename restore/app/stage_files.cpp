@@ -24,6 +24,8 @@ void StageFiles::AddTo(const std::string& name, const cv::Mat& picture) {
 void StageFiles::Add(const FrameOnWay& frame) {
   AddTo("stabilised", frame.steady);
   AddTo("own", frame.own);
+  AddTo("mask", frame.mask);
+  AddTo("background", frame.background);
 }
 
 void StageFiles::Finish(const VideoFacts& facts, const RestorePlan& plan) {

@@ -5,9 +5,12 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "restore/background.h"
+#include "restore/blend.h"
 #include "restore/border_fill.h"
 #include "restore/stabilise.h"
 #include "restore/translate.h"
+#include "restore/turbulence_strength.h"
 
 namespace shimmer::restore {
 namespace {
@@ -87,6 +90,68 @@ void FirstFrames(benchmark::State& state, cv::Size size) {
   state.SetItemsProcessed(state.iterations() * count);
 }
 
+// A scene in air that moves it by a px or so, and what moves in it.
+struct Turbulent {
+  std::vector<cv::Mat> frames, moving;
+};
+
+Turbulent TurbulentFrames(cv::Size size) {
+  const cv::Mat scene = ShakenFrames(size).front();
+  Turbulent video;
+  cv::RNG random(2);
+  for (int k = 0; k < kFrames; ++k) {
+    cv::Mat map(size, CV_32FC2), tilt(size / 8, CV_32FC2), frame;
+    random.fill(tilt, cv::RNG::NORMAL, 0, 2);
+    cv::resize(tilt, map, size, 0, 0, cv::INTER_CUBIC);
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x) map.at<cv::Vec2f>(y, x) += cv::Vec2f(x, y);
+    cv::remap(scene, frame, map, {}, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    cv::Mat moving = cv::Mat::zeros(size, CV_8UC1);
+    const cv::Point at(size.width * (k + 2) / (kFrames + 4), size.height / 2);
+    cv::ellipse(frame, at, size / 7, 0, 0, 360, {200, 40, 60}, cv::FILLED);
+    cv::ellipse(moving, at, size / 7, 0, 0, 360, 255, cv::FILLED);
+    cv::GaussianBlur(moving, moving, {0, 0}, 2);
+    video.frames.push_back(frame);
+    video.moving.push_back(moving);
+  }
+  return video;
+}
+
+void MeanBackground(benchmark::State& state, cv::Size size, bool registered) {
+  const Turbulent video = TurbulentFrames(size);
+  Background background({.registered = registered});
+  size_t k = 0;
+  const auto next = [&] {
+    const size_t at = k++ % kFrames;
+    return background.Next({video.frames[at], {}}, video.moving[at]);
+  };
+  while (k < 30) next();  // the window is full
+  for (auto _ : state) benchmark::DoNotOptimize(next());
+}
+
+void PlainBackground(benchmark::State& state, cv::Size size) { MeanBackground(state, size, false); }
+void RegisteredBackground(benchmark::State& state, cv::Size size) { MeanBackground(state, size, true); }
+
+void Strength(benchmark::State& state, cv::Size size) {
+  const Turbulent video = TurbulentFrames(size);
+  StrengthEstimate estimate;
+  size_t k = 0;
+  for (auto _ : state) {
+    const size_t at = k++ % kFrames;
+    estimate.Add(video.frames[at], video.moving[at]);
+  }
+}
+
+void Blend(benchmark::State& state, cv::Size size) {
+  const Turbulent video = TurbulentFrames(size);
+  size_t k = 0;
+  for (auto _ : state) {
+    const size_t at = k++ % kFrames;
+    benchmark::DoNotOptimize(
+        Blended(video.frames[at], video.frames[(at + 5) % kFrames], video.moving[at]).data);
+  }
+}
+
 }  // namespace
 }  // namespace shimmer::restore
 
@@ -106,6 +171,10 @@ int main(int argc, char** argv) {
     add("stabilise", Stabilise);
     add("stabilise and fill", StabiliseAndFill);
     add("stabilise, first frames", FirstFrames);
+    add("strength", Strength);
+    add("background", PlainBackground);
+    add("background, registered", RegisteredBackground);
+    add("blend", Blend);
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -5,9 +5,9 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-namespace shimmer::restore {
+#include "restore/levels.h"
 
-inline double WhiteOf(int depth) { return depth == CV_8U ? 255 : depth == CV_16U ? 65535 : 1; }
+namespace shimmer::restore {
 
 // The same number of levels in all samples.
 inline cv::Mat Flat(cv::Size size, int type, double level) {

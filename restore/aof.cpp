@@ -1,0 +1,107 @@
+#include "restore/aof.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "restore/detail_level.h"
+#include "restore/otsu.h"
+
+namespace shimmer::restore {
+namespace {
+
+constexpr double kAuthorsDivisor = 1.5;
+// Of grey's range: a local contrast at which a flow counts half. A step of 8 bits is 1/255.
+constexpr double kHalfContrast = 1.0 / 255;
+constexpr int kContrastSide_px = 17;  // of the box it is measured in: twice the patches that DIS compares
+
+// In [0, 1): 0 without texture.
+cv::Mat Sureness(const cv::Mat& level) {
+  const double range = level.depth() == CV_8U ? 255 : level.depth() == CV_16U ? 65535 : 1;
+  const cv::Mat grey = ReducedGrey(level, 1) / range;
+  const cv::Size box(kContrastSide_px, kContrastSide_px);
+  cv::Mat mean, square;
+  cv::blur(grey, mean, box, {-1, -1}, cv::BORDER_REPLICATE);
+  cv::sqrBoxFilter(grey - 0.0, square, CV_32F, box, {-1, -1}, true, cv::BORDER_REPLICATE);
+  cv::Mat variance = cv::max(square - mean.mul(mean), 0);
+  cv::Mat sure;
+  cv::divide(variance, variance + kHalfContrast * kHalfContrast, sure);
+  return sure;
+}
+
+cv::Mat OwnLevel(const cv::Mat& own, cv::Size size) {
+  cv::Mat level;
+  cv::resize(own, level, size, 0, 0, cv::INTER_NEAREST);
+  return level;
+}
+
+}  // namespace
+
+int NeighbourAt(int n) { return (n % 2 == 0 ? -2 : 2) << (n / 2); }
+
+std::vector<cv::Mat> AofOf(DenseFlow& flow, const Place& place, int most_neighbours) {
+  const cv::Mat frame = HalvedIfLarge(place.current.frame), own = OwnLevel(place.current.own, frame.size());
+  const cv::Mat sure = Sureness(frame);
+  cv::Mat sum = cv::Mat::zeros(frame.size(), CV_32FC1), weights = sum.clone();
+  std::vector<cv::Mat> result;
+  for (int n = 0; n < most_neighbours; ++n) {
+    const SteadyFrame& neighbour = place.neighbours[static_cast<size_t>(n)];
+    if (!neighbour.frame.empty()) {
+      std::vector<cv::Mat> axes;
+      cv::split(flow.Flow(frame, HalvedIfLarge(neighbour.frame)), axes);
+      cv::Mat length, weight;
+      cv::magnitude(axes[0], axes[1], length);
+      OwnLevel(neighbour.own, frame.size()).convertTo(weight, CV_32F, 1 / 255.0);
+      sum += length.mul(weight), weights += weight;
+    }
+    if (n % 2 == 0) continue;
+    cv::Mat mean;
+    cv::divide(sum.mul(sure), cv::max(weights, 1), mean);
+    mean.setTo(0, own == 0);
+    result.push_back(mean);
+  }
+  return result;
+}
+
+double Clearness(const cv::Mat& aof, const cv::Mat& use) {
+  double most = 0;
+  cv::minMaxLoc(aof, nullptr, &most, nullptr, nullptr, use);
+  if (!(most > 0)) return 0;
+  return cv::mean(cv::abs(aof / most - 0.5), use)[0];
+}
+
+void AofChoice::Add(const std::vector<cv::Mat>& aof, const cv::Mat& own) {
+  Seen seen{{}, own};
+  // Halves of 16 bits are exact enough: 1/2,048 of the flow.
+  for (const cv::Mat& map : aof) map.convertTo(seen.aof.emplace_back(), CV_16F);
+  seen_.push_back(seen);
+}
+
+AofSettings AofChoice::Settings() const {
+  AofSettings settings;
+  double best = -1, most = 0;
+  const auto map = [&](const Seen& seen, int n) {
+    cv::Mat aof;
+    seen.aof[static_cast<size_t>(n)].convertTo(aof, CV_32F);
+    return aof;
+  };
+  for (int n = 0; 2 * n < kMostNeighbours; ++n) {
+    double clearness = 0, largest = 0;
+    for (const Seen& seen : seen_) {
+      const cv::Mat aof = map(seen, n);
+      clearness += Clearness(aof, seen.own);
+      double most_here = 0;
+      cv::minMaxLoc(aof, nullptr, &most_here);
+      largest = std::max(largest, most_here);
+    }
+    if (clearness > best) best = clearness, settings.neighbours = 2 * (n + 1), most = largest;
+  }
+  if (!(most > 0)) return settings;
+  PooledHistogram pooled(most);
+  for (const Seen& seen : seen_) pooled.Add(map(seen, settings.neighbours / 2 - 1), seen.own);
+  settings.threshold_px = pooled.OtsuThreshold() / kAuthorsDivisor;
+  settings.typical_px = pooled.Quantile(0.5);
+  return settings;
+}
+
+}  // namespace shimmer::restore

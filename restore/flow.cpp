@@ -1,0 +1,78 @@
+#include "restore/flow.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <stdexcept>
+
+#include "restore/levels.h"
+
+namespace shimmer::restore {
+namespace {
+
+constexpr int kLargeSide_px = 1000;
+constexpr int kLeastSide_px = 64;  // for its pyramid; smaller frames get their edges continued
+
+class Dis : public DenseFlow {
+ public:
+  explicit Dis(int preset) : dis_(cv::DISOpticalFlow::create(preset)) {}
+
+ private:
+  cv::Mat Compute(const cv::Mat& from, const cv::Mat& to) override {
+    const auto grey = [](const cv::Mat& frame) {
+      cv::Mat result = frame;
+      if (frame.channels() == 3) cv::cvtColor(frame, result, cv::COLOR_RGB2GRAY);
+      return result;
+    };
+    cv::Mat flow;
+    dis_->calc(grey(from), grey(to), flow);
+    return flow;
+  }
+
+  cv::Ptr<cv::DISOpticalFlow> dis_;
+};
+
+double WhiteScale(int depth) { return depth == CV_8U ? 1 : depth == CV_16U ? 1 / 257.0 : 255; }
+
+cv::Mat Bytes(const cv::Mat& frame) {
+  const cv::Mat small = HalvedIfLarge(frame);
+  cv::Mat bytes;
+  small.convertTo(bytes, CV_8U, WhiteScale(frame.depth()));
+  const int right = std::max(0, kLeastSide_px - bytes.cols), below = std::max(0, kLeastSide_px - bytes.rows);
+  if (right > 0 || below > 0)
+    cv::copyMakeBorder(bytes, bytes, 0, below, 0, right, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  return bytes;
+}
+
+}  // namespace
+
+cv::Mat DenseFlow::Flow(const cv::Mat& from, const cv::Mat& to) {
+  RequireFrame(from, "from");
+  RequireFrame(to, "to");
+  if (from.size() != to.size() || from.channels() != to.channels())
+    throw std::invalid_argument("flow: frames are of two sizes or numbers of channels");
+  const cv::Size small = HalvedIfLarge(from).size();
+  cv::Mat flow = Compute(Bytes(from), Bytes(to))(cv::Rect({0, 0}, small));
+  if (small == from.size()) return flow;
+  // (an odd last row or column is not of the halves: it continues them)
+  cv::Mat large, result;
+  cv::resize(flow, large, small * 2, 0, 0, cv::INTER_LINEAR);
+  cv::copyMakeBorder(large * 2, result, 0, from.rows - large.rows, 0, from.cols - large.cols,
+                     cv::BORDER_REPLICATE);
+  return result;
+}
+
+std::unique_ptr<DenseFlow> DisFlow(DisPreset preset) {
+  return std::make_unique<Dis>(preset == DisPreset::kFast ? cv::DISOpticalFlow::PRESET_FAST
+                                                          : cv::DISOpticalFlow::PRESET_MEDIUM);
+}
+
+cv::Mat HalvedIfLarge(const cv::Mat& frame) {
+  if (std::max(frame.cols, frame.rows) <= kLargeSide_px || std::min(frame.cols, frame.rows) < 2) return frame;
+  const cv::Size half(frame.cols / 2, frame.rows / 2);
+  cv::Mat small;
+  cv::resize(frame({{0, 0}, half * 2}), small, half, 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+}  // namespace shimmer::restore

@@ -1,0 +1,209 @@
+#include "restore/segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "restore/levels.h"
+#include "restore/mask_cleaning.h"
+
+namespace shimmer::restore {
+namespace {
+
+constexpr int kMoverGuard_px = 4;  // around what the flow sees to move
+constexpr double kFarBeyond = 3;
+constexpr double kUnrestSigma_px = 2;
+constexpr int kLeastObject_px = 20, kStep_px = 3;  // of what moves: its area, and what it does in a frame
+constexpr double kSoftest = 0.5;                   // of the threshold: below it is surely still
+constexpr int kSoftRim_px = 2;
+
+cv::Mat LevelFrame(const cv::Mat& frame) {
+  const cv::Mat small = HalvedIfLarge(frame);
+  cv::Mat levels;
+  small.convertTo(levels, CV_32F, frame.depth() == CV_8U ? 1 : frame.depth() == CV_16U ? 1 / 257.0 : 255);
+  return levels;
+}
+
+cv::Mat OwnLevel(const cv::Mat& own, cv::Size size) {
+  cv::Mat level;
+  cv::resize(own, level, size, 0, 0, cv::INTER_NEAREST);
+  return level;
+}
+
+cv::Mat Disc(int radius) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
+}
+
+void RequireSteady(const SteadyFrame& frame) {
+  RequireFrame(frame.frame, "frame");
+  if (frame.own.type() != CV_8UC1 || frame.own.size() != frame.frame.size())
+    throw std::invalid_argument("own must be CV_8UC1 of the frame's size");
+}
+
+// How much the frame differs from those 4 before and after it, or from the nearest there are.
+cv::Mat UnrestOf(const Place& place, const cv::Mat& frame) {
+  cv::Mat most = cv::Mat::zeros(frame.size(), CV_32FC1);
+  bool found = false;
+  for (const int n : {2, 3, 0, 1, 4, 5}) {
+    const cv::Mat& other = place.neighbours[static_cast<size_t>(n)].frame;
+    if (other.empty() || (found && n != 3)) continue;
+    cv::Mat apart = cv::abs(frame - LevelFrame(other));
+    if (apart.channels() == 3) {
+      std::vector<cv::Mat> c;
+      cv::split(apart, c);
+      apart = cv::max(cv::Mat(cv::max(c[0], c[1])), c[2]);
+    }
+    most = cv::max(most, apart), found = true;
+  }
+  cv::GaussianBlur(most, most, {0, 0}, kUnrestSigma_px, 0, cv::BORDER_REPLICATE);
+  return most;
+}
+
+// How far the frame's own px lie outside of the scene.
+cv::Mat OutsideOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& own) {
+  cv::Mat distance = DistanceTo(scene.interval, level);
+  distance.setTo(0, OwnLevel(own, level.size()) == 0);
+  return distance;
+}
+
+cv::Mat ObjectsOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& distance) {
+  const cv::Mat sure = DistanceTo(scene.wide, level) > scene.threshold;
+  return MovingObjects(distance, scene.threshold, sure, kLeastObject_px);
+}
+
+}  // namespace
+
+std::vector<int> SurveyPlaces(int frames, int most) {
+  if (frames < 1 || most < 1) throw std::invalid_argument("SurveyPlaces: frames and most must be at least 1");
+  std::vector<int> places;
+  const int count = std::min(frames, most);
+  for (int i = 0; i < count; ++i)
+    places.push_back(
+        count == 1 ? frames / 2
+                   : static_cast<int>(std::lround(static_cast<double>(i) * (frames - 1) / (count - 1))));
+  return places;
+}
+
+SegmentSurvey::SegmentSurvey(SegmentMethod method, std::unique_ptr<DenseFlow> flow)
+    : method_(method), flow_(std::move(flow)) {}
+
+void SegmentSurvey::Add(const Place& place) {
+  RequireSteady(place.current);
+  if (place.neighbours.size() != kMostNeighbours)
+    throw std::invalid_argument("place must have 6 neighbours, empty where there is none");
+  for (const SteadyFrame& neighbour : place.neighbours) {
+    if (neighbour.frame.empty()) continue;
+    RequireSteady(neighbour);
+    if (neighbour.frame.size() != place.current.frame.size() ||
+        neighbour.frame.type() != place.current.frame.type())
+      throw std::invalid_argument("neighbour is of another size or type than the frame");
+  }
+  const cv::Mat frame = LevelFrame(place.current.frame), own = OwnLevel(place.current.own, frame.size());
+  if (!samples_.empty() &&
+      (samples_[0].frame.size() != frame.size() || samples_[0].frame.type() != frame.type()))
+    throw std::invalid_argument("place is of another size or type than the first");
+  const std::vector<cv::Mat> aof = AofOf(*flow_, place);
+  choice_.Add(aof, own);
+  for (size_t n = 0; n < aof.size(); ++n) aof[n].convertTo(aof_[n].emplace_back(), CV_16F);
+  samples_.push_back({frame, own, {}, UnrestOf(place, frame)});
+}
+
+SegmentSettings SegmentSurvey::Settings() const {
+  if (samples_.empty()) throw std::invalid_argument("survey without a place");
+  SegmentSettings settings{method_, choice_.Settings(), {}};
+  if (method_ == SegmentMethod::kAof) return settings;
+  // Where nothing moves Otsu's threshold parts turbulence itself: movers of which the scene is freed are well
+  // beyond what is typical.
+  const double moving_px = std::max(settings.aof.threshold_px, kFarBeyond * settings.aof.typical_px);
+  std::vector<SceneSample> samples = samples_;
+  for (size_t k = 0; k < samples.size(); ++k) {
+    cv::Mat aof;
+    aof_[static_cast<size_t>(settings.aof.neighbours / 2 - 1)][k].convertTo(aof, CV_32F);
+    cv::dilate(settings.aof.threshold_px > 0 ? cv::Mat(aof > moving_px) : cv::Mat::zeros(aof.size(), CV_8UC1),
+               samples[k].movers, Disc(kMoverGuard_px));
+  }
+  settings.scene = FindStillScene(samples);
+  return settings;
+}
+
+cv::Mat MovingAt(const SegmentSettings& settings, const SteadyFrame& frame) {
+  if (settings.method == SegmentMethod::kAof) return {};
+  const cv::Mat level = LevelFrame(frame.frame);
+  cv::Mat moving;
+  cv::resize(ObjectsOf(settings.scene, level, OutsideOf(settings.scene, level, frame.own)), moving,
+             frame.frame.size(), 0, 0, cv::INTER_NEAREST);
+  return moving;
+}
+
+Segmenter::Segmenter(SegmentSettings settings, std::unique_ptr<DenseFlow> flow)
+    : settings_(std::move(settings)),
+      flow_(std::move(flow)),
+      ahead_(settings_.method == SegmentMethod::kAof ? kReach : 1) {}
+
+std::optional<cv::Mat> Segmenter::Next(const SteadyFrame& frame) {
+  RequireSteady(frame);
+  if (!frames_.empty() && frames_.back().own.size() != frame.own.size())
+    throw std::invalid_argument("frame is of another size than the first");
+  if (settings_.method == SegmentMethod::kFused) {
+    const cv::Mat level = LevelFrame(frame.frame);
+    if (level.size() != settings_.scene.picture.size() || level.type() != settings_.scene.picture.type())
+      throw std::invalid_argument("frame is of another size or type than those of the survey");
+    distances_.push_back(OutsideOf(settings_.scene, level, frame.own));
+    objects_.push_back(ObjectsOf(settings_.scene, level, distances_.back()));
+    frames_.push_back({{}, frame.own});
+  } else {
+    if (!frames_.empty() && frames_.back().frame.type() != frame.frame.type())
+      throw std::invalid_argument("frame is of another type than the first");
+    frames_.push_back(frame);
+  }
+  if (static_cast<int>(frames_.size()) - next_ <= ahead_) return {};
+  return Rest();
+}
+
+std::optional<cv::Mat> Segmenter::Rest() {
+  if (next_ >= static_cast<int>(frames_.size())) return {};
+  const cv::Mat mask = MaskAt(next_);
+  if (next_ < ahead_) {
+    ++next_;
+  } else {
+    frames_.pop_front();
+    if (!distances_.empty()) distances_.pop_front(), objects_.pop_front();
+  }
+  return mask;
+}
+
+cv::Mat Segmenter::MaskAt(int i) {
+  const SteadyFrame& frame = frames_[static_cast<size_t>(i)];
+  const int count = static_cast<int>(frames_.size());
+  cv::Mat mask;
+  if (settings_.method == SegmentMethod::kAof) {
+    Place place{frame, {}};
+    for (int n = 0; n < kMostNeighbours; ++n) {
+      const int k = i + NeighbourAt(n);
+      place.neighbours.push_back(k >= 0 && k < count ? frames_[static_cast<size_t>(k)] : SteadyFrame{});
+    }
+    const cv::Mat aof = AofOf(*flow_, place, settings_.aof.neighbours).back();
+    const double threshold = settings_.aof.threshold_px;
+    mask = threshold > 0 ? cv::Mat(aof > threshold) : cv::Mat::zeros(aof.size(), CV_8UC1);
+  } else {
+    const double threshold = settings_.scene.threshold;
+    const auto objects = [&](int k) {
+      return k < 0 || k >= count ? cv::Mat() : objects_[static_cast<size_t>(k)];
+    };
+    const cv::Mat kept = Persistent(objects(i), objects(i - 1), objects(i + 1), kStep_px);
+    cv::Mat soft, near;
+    distances_[static_cast<size_t>(i)].convertTo(soft, CV_8U, 127 / ((1 - kSoftest) * threshold),
+                                                 128 - 127 / (1 - kSoftest));
+    cv::dilate(kept, near, Disc(kSoftRim_px));
+    mask = cv::Mat::zeros(soft.size(), CV_8UC1);
+    cv::Mat(cv::min(soft, 127)).copyTo(mask, near);
+    cv::Mat(cv::max(soft, 128)).copyTo(mask, kept);
+  }
+  if (mask.size() != frame.own.size()) cv::resize(mask, mask, frame.own.size(), 0, 0, cv::INTER_LINEAR);
+  mask.setTo(0, frame.own == 0);
+  return mask;
+}
+
+}  // namespace shimmer::restore

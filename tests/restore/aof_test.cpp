@@ -1,0 +1,152 @@
+#include "restore/aof.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "tests/restore/frames.h"
+
+namespace shimmer::restore {
+namespace {
+
+// Known flows, one after the other: the n-th call gives `flows[n]` everywhere, or the picture that is given.
+class Known : public DenseFlow {
+ public:
+  explicit Known(std::vector<cv::Mat> flows) : flows_(std::move(flows)) {}
+  size_t calls = 0;
+
+ private:
+  cv::Mat Compute(const cv::Mat&, const cv::Mat&) override { return flows_.at(calls++); }
+  std::vector<cv::Mat> flows_;
+};
+
+SteadyFrame Seen(const cv::Mat& frame) { return {frame, cv::Mat(frame.size(), CV_8UC1, cv::Scalar(255))}; }
+
+Place WithNeighbours(const cv::Mat& frame) {
+  Place place{Seen(frame), {}};
+  for (int n = 0; n < kMostNeighbours; ++n) place.neighbours.push_back(Seen(frame));
+  return place;
+}
+
+std::vector<cv::Mat> RandomFlows(cv::Size size) {
+  std::vector<cv::Mat> flows;
+  cv::RNG random(3);
+  for (int n = 0; n < kMostNeighbours; ++n)
+    random.fill(flows.emplace_back(size, CV_32FC2), cv::RNG::NORMAL, 0, 5);
+  return flows;
+}
+
+// The paper's mean, in double. Noise over the whole range weighs 1 - (1/255)^2 / variance: within 1e-3 of 1.
+double MeanLength(const std::vector<cv::Mat>& flows, int first, int count, int y, int x) {
+  double sum = 0;
+  for (int n = first; n < count; ++n) {
+    const auto& flow = flows[static_cast<size_t>(n)].at<cv::Vec2f>(y, x);
+    sum += std::hypot(static_cast<double>(flow[0]), static_cast<double>(flow[1]));
+  }
+  return sum / (count - first);
+}
+
+TEST(Aof, NeighboursAreSpreadOverBothSides) {
+  const int times[] = {-2, 2, -4, 4, -8, 8};
+  for (int n = 0; n < kMostNeighbours; ++n) EXPECT_EQ(NeighbourAt(n), times[n]);
+}
+
+TEST(Aof, IsTheMeanOfLengths) {
+  const cv::Mat frame = Noise({31, 23}, CV_8UC3, 1);
+  const std::vector<cv::Mat> flows = RandomFlows(frame.size());
+  Known flow(flows);
+  const std::vector<cv::Mat> aof = AofOf(flow, WithNeighbours(frame));
+  ASSERT_EQ(aof.size(), 3u);
+  EXPECT_EQ(flow.calls, 6u);  // each pair once
+  for (size_t n = 0; n < 3; ++n)
+    for (int y = 0; y < frame.rows; ++y)
+      for (int x = 0; x < frame.cols; ++x) {
+        const double truth = MeanLength(flows, 0, 2 * static_cast<int>(n) + 2, y, x);
+        ASSERT_NEAR(aof[n].at<float>(y, x), truth, 2e-3 * truth + 1e-5);
+      }
+}
+
+TEST(Aof, MissingAndFilledNeighboursAreLeftOut) {
+  const cv::Mat frame = Noise({31, 23}, CV_8UC1, 1);
+  const std::vector<cv::Mat> flows = RandomFlows(frame.size());
+  Known flow({flows.begin() + 1, flows.end()});
+  Place place = WithNeighbours(frame);
+  place.neighbours[0] = {};
+  place.neighbours[1].own.row(3).setTo(0);
+  const cv::Mat aof = AofOf(flow, place, 4)[1];
+  EXPECT_NEAR(aof.at<float>(5, 7), MeanLength(flows, 1, 4, 5, 7), 0.02);
+  EXPECT_NEAR(aof.at<float>(3, 7), MeanLength(flows, 2, 4, 3, 7), 0.02);
+}
+
+TEST(Aof, NothingIsSeenWhereTheFrameIsFilledOrFlat) {
+  cv::Mat frame = Noise({80, 40}, CV_16UC1, 1);
+  frame.colRange(40, 80).setTo(30000);
+  Known flow(RandomFlows(frame.size()));
+  Place place = WithNeighbours(frame);
+  place.current.own.row(0).setTo(0);
+  const cv::Mat aof = AofOf(flow, place).back();
+  EXPECT_EQ(cv::countNonZero(aof.row(0)), 0);
+  EXPECT_LT(cv::norm(aof.colRange(50, 80), cv::NORM_INF), 0.01);  // further than the box from the texture
+  EXPECT_GT(cv::mean(aof({0, 1, 30, 39}))[0], 1);
+}
+
+TEST(Aof, ClearnessAgainstItsEquation) {
+  cv::Mat aof(13, 17, CV_32FC1), use(13, 17, CV_8UC1, cv::Scalar(255));
+  cv::RNG(5).fill(aof, cv::RNG::UNIFORM, 0, 9);
+  use.col(2).setTo(0);
+  aof.col(2).setTo(100);
+  double most = 0, sum = 0;
+  int count = 0;
+  for (int y = 0; y < aof.rows; ++y)
+    for (int x = 0; x < aof.cols; ++x)
+      if (x != 2) most = std::max(most, static_cast<double>(aof.at<float>(y, x)));
+  for (int y = 0; y < aof.rows; ++y)
+    for (int x = 0; x < aof.cols; ++x)
+      if (x != 2) sum += std::abs(aof.at<float>(y, x) / most - 0.5), ++count;
+  EXPECT_NEAR(Clearness(aof, use), sum / count, 1e-6);
+  EXPECT_EQ(Clearness(cv::Mat::zeros(3, 3, CV_32FC1), cv::Mat(3, 3, CV_8UC1, cv::Scalar(255))), 0);
+}
+
+TEST(Aof, TheClearestNumberOfNeighboursAndOneThreshold) {
+  // With N = 4 values are at the ends, with the others spread.
+  cv::Mat spread(20, 20, CV_32FC1), clear = cv::Mat::zeros(20, 20, CV_32FC1);
+  cv::RNG(5).fill(spread, cv::RNG::UNIFORM, 0, 6);
+  clear(cv::Rect(4, 4, 5, 5)) = 6;
+  AofChoice choice;
+  EXPECT_EQ(choice.Settings().threshold_px, 0);
+  for (int k = 0; k < 3; ++k) choice.Add({spread, clear, spread}, cv::Mat(20, 20, CV_8UC1, cv::Scalar(255)));
+  EXPECT_EQ(choice.Settings().neighbours, 4);
+  EXPECT_NEAR(choice.Settings().threshold_px, 3 / 1.5, 0.01);  // the middle between 0 and 6, a bin is 6/1024
+}
+
+TEST(Flow, OfAMovedFrameIsItsShift) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC3, CV_32FC1})
+    for (const cv::Size size : {cv::Size(160, 120), cv::Size(1201, 203)}) {
+      cv::Mat scene = Noise(size + cv::Size(8, 8), type, 4);
+      for (int i = 0; i < 4; ++i) cv::blur(scene, scene, {7, 7});
+      cv::normalize(scene.clone(), scene, 0, WhiteOf(scene.depth()), cv::NORM_MINMAX);
+      const cv::Mat flow = DisFlow()->Flow(scene({{4, 4}, size}).clone(), scene({{1, 2}, size}).clone());
+      ASSERT_EQ(flow.size(), size);
+      // What is at p of the first is at p + (3, 2) of the second. Means over the inside, where nothing
+      // leaves.
+      // Patches are compared to a tenth of a px: of two px at half size, and its patches are cut by more
+      // edges.
+      const double tolerance = size.width > 1000 ? 0.3 : 0.1;
+      const cv::Scalar mean = cv::mean(flow(cv::Rect(20, 20, size.width - 40, size.height - 40)));
+      EXPECT_NEAR(mean[0], 3, tolerance) << type << size;
+      EXPECT_NEAR(mean[1], 2, tolerance) << type << size;
+    }
+}
+
+TEST(Flow, TinyFramesAndBadOnes) {
+  const cv::Mat tiny = Noise({5, 3}, CV_8UC3, 1);
+  EXPECT_EQ(DisFlow()->Flow(tiny, tiny).size(), tiny.size());
+  EXPECT_THROW(DisFlow()->Flow(tiny, cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(DisFlow()->Flow(tiny, Noise({5, 4}, CV_8UC3, 1)), std::invalid_argument);
+  EXPECT_THROW(DisFlow()->Flow(tiny, Noise({5, 3}, CV_8UC1, 1)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace shimmer::restore
