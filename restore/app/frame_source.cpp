@@ -29,16 +29,21 @@ bool IsPicture(const std::filesystem::path& path) {
   return !extension.empty() && std::ranges::count(dataset::PictureExtensions(), extension.substr(1)) > 0;
 }
 
-// Frames that are numbered one after the other: one that was lost would shift all that follow it in time.
+// Frames that are numbered one after the other, or each so many after the one before: one that was lost would
+// shift all that follow it in time.
 void RequireNoGap(const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> files = dataset::SequenceFiles(folder);
-  for (size_t i = 1; i < files.size(); ++i) {
-    const auto before = LastNumber(files[i - 1]), here = LastNumber(files[i]);
-    if (before && here && *here > *before + 1)
+  std::vector<int64_t> numbers;
+  for (const std::filesystem::path& file : files)
+    if (const auto number = LastNumber(file)) numbers.push_back(*number);
+  if (numbers.size() != files.size() || files.size() < 2) return;
+  int64_t step = INT64_MAX;
+  for (size_t i = 1; i < numbers.size(); ++i) step = std::min(step, numbers[i] - numbers[i - 1]);
+  for (size_t i = 1; i < numbers.size(); ++i)
+    if (numbers[i] - numbers[i - 1] > std::max<int64_t>(step, 1))
       throw std::runtime_error(folder.string() + ": has no frame between " +
                                files[i - 1].filename().string() + " and " + files[i].filename().string() +
                                ", must be numbered without gaps");
-  }
 }
 
 }  // namespace

@@ -123,6 +123,12 @@ TEST(RestoreVideo, RefusesWhatIsNoVideoInOneLine) {
   fs::remove(folder / ("gap/" + NameOf(2)));
   ExpectRefused(Restored(folder, "gap", "out"), 1,
                 {"gap: has no frame between f1001.png and f1003.png, must be numbered without gaps"});
+  // Every second number is no gap; one of these that is missing is.
+  PutShaken(folder, "odd", 7);
+  for (const int k : {1, 3, 5}) fs::remove(folder / ("odd/" + NameOf(k)));
+  ExpectDone(Restored(folder, "odd", "odd_out"));
+  fs::remove(folder / ("odd/" + NameOf(2)));
+  ExpectRefused(Restored(folder, "odd", "out"), 1, {"odd: has no frame between f1000.png and f1004.png"});
   PutShaken(folder, "sizes", 3);
   folder.Put("sizes/f1003.png", dataset::EncodePng(SeenFrame({.size = {97, 75}}), 8));
   ExpectRefused(Restored(folder, "sizes", "out"), 1, {"f1003.png: another size"});
