@@ -14,13 +14,13 @@
 namespace shimmer::restore {
 
 struct VideoFacts {
-  cv::Size size;
+  cv::Size size = {};
   int type = 0;
   int64_t frames = 0;
   bool grey = false;   // one channel, or three that are equal in every px of every frame
   bool alike = false;  // every frame is the first one, bit by bit
-  std::vector<FrameShift> shifts;
-  std::optional<SceneFacts> scene;  // where frames are to be stacked: LookAtScene's
+  std::vector<FrameShift> shifts = {};
+  std::optional<SceneFacts> scene = {};  // where frames are to be stacked: LookAtScene's
 };
 
 // step: called after each frame. Throws std::invalid_argument for frames that Stabiliser refuses, and what

@@ -9,7 +9,7 @@ namespace {
 
 // What goes from stage to stage: frames that became ready together, none or many.
 struct Batch {
-  std::vector<FrameOnWay> frames;
+  std::vector<FrameOnWay> frames = {};
   bool last = false;
 };
 

@@ -17,7 +17,7 @@ struct SceneFacts {
   SegmentSettings segment;
   double moving_share =
       0;  // of the frames looked at, what moves in them; kAof: 1 or 0, whether anything does
-  TurbulenceStrength strength;
+  TurbulenceStrength strength = {};
 };
 
 // At places evenly spread over the video, with their neighbours; then at the places once more, to see what

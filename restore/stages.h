@@ -13,11 +13,11 @@ namespace shimmer::restore {
 // A frame on its way. What a stage that the plan leaves out would have made is empty.
 struct FrameOnWay {
   int64_t index = 0;
-  cv::Mat frame;       // as it was read; then as the camera of the first frame would see it; then restored
-  cv::Mat steady;      // as it left stabilising; the frame itself where there is none
-  cv::Mat own;         // CV_8UC1: 255 where the frame saw it itself, 0 where it is filled; empty: all its own
-  cv::Mat mask;        // CV_8UC1: 255 where something moves, between where that is not sure
-  cv::Mat background;  // the still scene, of the frames around this one
+  cv::Mat frame;      // as it was read; then as the camera of the first frame would see it; then restored
+  cv::Mat steady;     // as it left stabilising; the frame itself where there is none
+  cv::Mat own;        // CV_8UC1: 255 where the frame saw it itself, 0 where it is filled; empty: all its own
+  cv::Mat mask = {};  // CV_8UC1: 255 where something moves, between where that is not sure
+  cv::Mat background = {};  // the still scene, of the frames around this one
 };
 
 class Stage {
