@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "restore/detail_level.h"
+#include "restore/levels.h"
 #include "restore/otsu.h"
 
 namespace shimmer::restore {
@@ -17,8 +18,7 @@ constexpr int kContrastSide_px = 17;  // of the box it is measured in: twice the
 
 // In [0, 1): 0 without texture.
 cv::Mat Sureness(const cv::Mat& level) {
-  const double range = level.depth() == CV_8U ? 255 : level.depth() == CV_16U ? 65535 : 1;
-  const cv::Mat grey = ReducedGrey(level, 1) / range;
+  const cv::Mat grey = ReducedGrey(level, 1) / WhiteOf(level.depth());
   const cv::Size box(kContrastSide_px, kContrastSide_px);
   cv::Mat mean, square;
   cv::blur(grey, mean, box, {-1, -1}, cv::BORDER_REPLICATE);
@@ -29,18 +29,33 @@ cv::Mat Sureness(const cv::Mat& level) {
   return sure;
 }
 
-cv::Mat OwnLevel(const cv::Mat& own, cv::Size size) {
-  cv::Mat level;
-  cv::resize(own, level, size, 0, 0, cv::INTER_NEAREST);
-  return level;
+}  // namespace
+
+cv::Mat OwnAtSize(const cv::Mat& own, cv::Size size) {
+  cv::Mat resized;
+  cv::resize(own, resized, size, 0, 0, cv::INTER_NEAREST);
+  return resized;
 }
 
-}  // namespace
+Place PlaceAt(int64_t k, const std::function<const SteadyFrame*(int64_t)>& frame_at) {
+  Place place{*frame_at(k), {}};
+  for (int n = 0; n < kMostNeighbours; ++n) {
+    const SteadyFrame* neighbour = frame_at(k + NeighbourAt(n));
+    place.neighbours.push_back(neighbour ? *neighbour : SteadyFrame());
+  }
+  return place;
+}
+
+Place PlaceAt(int64_t k, const std::vector<SteadyFrame>& frames) {
+  return PlaceAt(k, [&](int64_t i) {
+    return i >= 0 && i < std::ssize(frames) ? &frames[static_cast<size_t>(i)] : nullptr;
+  });
+}
 
 int NeighbourAt(int n) { return (n % 2 == 0 ? -2 : 2) << (n / 2); }
 
 std::vector<cv::Mat> AofOf(DenseFlow& flow, const Place& place, int most_neighbours) {
-  const cv::Mat frame = HalvedIfLarge(place.current.frame), own = OwnLevel(place.current.own, frame.size());
+  const cv::Mat frame = HalvedIfLarge(place.current.frame), own = OwnAtSize(place.current.own, frame.size());
   const cv::Mat sure = Sureness(frame);
   cv::Mat sum = cv::Mat::zeros(frame.size(), CV_32FC1), weights = sum.clone();
   std::vector<cv::Mat> result;
@@ -51,7 +66,7 @@ std::vector<cv::Mat> AofOf(DenseFlow& flow, const Place& place, int most_neighbo
       cv::split(flow.Flow(frame, HalvedIfLarge(neighbour.frame)), axes);
       cv::Mat length, weight;
       cv::magnitude(axes[0], axes[1], length);
-      OwnLevel(neighbour.own, frame.size()).convertTo(weight, CV_32F, 1 / 255.0);
+      OwnAtSize(neighbour.own, frame.size()).convertTo(weight, CV_32F, 1 / 255.0);
       sum += length.mul(weight), weights += weight;
     }
     if (n % 2 == 0) continue;

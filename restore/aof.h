@@ -2,6 +2,8 @@
 // moves, does not.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -26,6 +28,14 @@ struct Place {
   SteadyFrame current;
   std::vector<SteadyFrame> neighbours;  // as NeighbourAt counts; empty frames where there is none
 };
+
+// The place of frame k; frame_at(i) is nullptr where there is no frame i.
+Place PlaceAt(int64_t k, const std::function<const SteadyFrame*(int64_t)>& frame_at);
+// The same in a row of frames.
+Place PlaceAt(int64_t k, const std::vector<SteadyFrame>& frames);
+
+// SteadyFrame::own at another size.
+cv::Mat OwnAtSize(const cv::Mat& own, cv::Size size);
 
 // How far the frame's pixels are from where they are in each neighbour, in px, for N = 2, 4 and 6: of the
 // same number of flows as N = 6 alone. CV_32FC1 of HalvedIfLarge's size, in px of that; 0 where the frame is

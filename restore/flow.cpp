@@ -10,7 +10,6 @@
 namespace shimmer::restore {
 namespace {
 
-constexpr int kLargeSide_px = 1000;
 constexpr int kLeastSide_px = 64;  // for its pyramid; smaller frames get their edges continued
 
 class Dis : public DenseFlow {
@@ -32,12 +31,10 @@ class Dis : public DenseFlow {
   cv::Ptr<cv::DISOpticalFlow> dis_;
 };
 
-double WhiteScale(int depth) { return depth == CV_8U ? 1 : depth == CV_16U ? 1 / 257.0 : 255; }
-
 cv::Mat Bytes(const cv::Mat& frame) {
   const cv::Mat small = HalvedIfLarge(frame);
   cv::Mat bytes;
-  small.convertTo(bytes, CV_8U, WhiteScale(frame.depth()));
+  small.convertTo(bytes, CV_8U, 255 / WhiteOf(frame.depth()));
   const int right = std::max(0, kLeastSide_px - bytes.cols), below = std::max(0, kLeastSide_px - bytes.rows);
   if (right > 0 || below > 0)
     cv::copyMakeBorder(bytes, bytes, 0, below, 0, right, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);

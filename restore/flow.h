@@ -26,7 +26,9 @@ class DenseFlow {
 enum class DisPreset { kFast, kMedium };
 std::unique_ptr<DenseFlow> DisFlow(DisPreset preset = DisPreset::kFast);
 
-// Half above 1,000 px, else the frame itself: by means of 2x2 px, a last odd row or column left out.
+inline constexpr int kLargeSide_px = 1000;
+
+// Half above kLargeSide_px, else the frame itself: by means of 2x2 px, a last odd row or column left out.
 cv::Mat HalvedIfLarge(const cv::Mat& frame);
 
 }  // namespace shimmer::restore

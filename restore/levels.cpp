@@ -72,4 +72,13 @@ cv::Mat LumaLevels(const cv::Mat& frame, cv::Range rows, int channels) {
   return luma;
 }
 
+cv::Mat MostOfChannels(const cv::Mat& frame) {
+  if (frame.channels() == 1) return frame;
+  std::vector<cv::Mat> channels;
+  cv::split(frame, channels);
+  cv::Mat most = channels[0];
+  for (size_t c = 1; c < channels.size(); ++c) most = cv::max(most, channels[c]);
+  return most;
+}
+
 }  // namespace shimmer::restore

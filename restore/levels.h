@@ -27,6 +27,9 @@ cv::Mat Levels(const cv::Mat& frame, cv::Range rows, int channels);
 // evaluation does both.
 cv::Mat LumaLevels(const cv::Mat& frame, cv::Range rows, int channels);
 
+// The greatest of each px's channels; of one channel: the frame itself.
+cv::Mat MostOfChannels(const cv::Mat& frame);
+
 // Rows that are worked on at a time: what is computed of a frame in double fits into the caches, and sums are
 // made in this order, whatever the threads.
 inline constexpr int kRowsAtOnce = 32;

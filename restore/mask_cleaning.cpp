@@ -30,11 +30,13 @@ cv::Mat Groups(const cv::Mat& mask, const cv::Mat& seed, const Keep& keep) {
 
 }  // namespace
 
+cv::Mat Disc(int radius_px) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius_px + 1, 2 * radius_px + 1});
+}
+
 cv::Mat MovingObjects(const cv::Mat& distance, double threshold, const cv::Mat& sure, int least_px) {
   cv::Mat beyond = distance > threshold;
-  const int side = 2 * kGap_px + 1;
-  cv::morphologyEx(beyond, beyond, cv::MORPH_CLOSE,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
+  cv::morphologyEx(beyond, beyond, cv::MORPH_CLOSE, Disc(kGap_px));
   cv::Mat objects = Groups(beyond, sure, [&](int area, int seeds) { return area >= least_px && seeds > 0; });
   // Holes no larger than half of the objects they are in.
   cv::Mat filled = objects.clone();

@@ -5,6 +5,9 @@
 
 namespace shimmer::restore {
 
+// To grow and shrink masks by.
+cv::Mat Disc(int radius_px);
+
 // CV_8UC1, 255 or 0. distance: CV_32FC1. Objects are groups of at least least_px pixels beyond the threshold,
 // of which a pixel is sure (sure: CV_8UC1, not 0), gaps of up to 8 px closed, and holes in them of less than
 // half of what they enclose filled.

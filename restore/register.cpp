@@ -16,7 +16,7 @@
 namespace shimmer::restore {
 namespace {
 
-constexpr int kLeastSide_px = 16, kLargeSide_px = 1000;
+constexpr int kLeastSide_px = 16;
 constexpr int kBand = 64;                  // rows that one thread takes at a time
 constexpr double kLeastRange = 1 / 255.0;  // of white: less is not stretched further
 

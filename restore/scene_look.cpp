@@ -51,12 +51,10 @@ SegmentSettings Survey(SteadyReader& reader, const std::vector<int>& places, int
   auto place = places.begin();
   const auto add_whole = [&](int64_t read_up_to) {
     for (; place != places.end() && (*place + kReach <= read_up_to || read_up_to == frames - 1); ++place) {
-      Place whole{.current = there.at(*place), .neighbours = {}};
-      for (int n = 0; n < kMostNeighbours; ++n) {
-        const auto neighbour = there.find(*place + NeighbourAt(n));
-        whole.neighbours.push_back(neighbour == there.end() ? SteadyFrame() : neighbour->second);
-      }
-      survey.Add(whole);
+      survey.Add(PlaceAt(*place, [&](int64_t k) {
+        const auto frame = there.find(k);
+        return frame == there.end() ? nullptr : &frame->second;
+      }));
     }
     there.erase(there.begin(), there.lower_bound(place == places.end() ? frames : *place - kReach));
   };

@@ -22,18 +22,8 @@ constexpr int kSoftRim_px = 2;
 cv::Mat LevelFrame(const cv::Mat& frame) {
   const cv::Mat small = HalvedIfLarge(frame);
   cv::Mat levels;
-  small.convertTo(levels, CV_32F, frame.depth() == CV_8U ? 1 : frame.depth() == CV_16U ? 1 / 257.0 : 255);
+  small.convertTo(levels, CV_32F, 255 / WhiteOf(frame.depth()));
   return levels;
-}
-
-cv::Mat OwnLevel(const cv::Mat& own, cv::Size size) {
-  cv::Mat level;
-  cv::resize(own, level, size, 0, 0, cv::INTER_NEAREST);
-  return level;
-}
-
-cv::Mat Disc(int radius) {
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
 void RequireSteady(const SteadyFrame& frame) {
@@ -49,12 +39,7 @@ cv::Mat UnrestOf(const Place& place, const cv::Mat& frame) {
   for (const int n : {2, 3, 0, 1, 4, 5}) {
     const cv::Mat& other = place.neighbours[static_cast<size_t>(n)].frame;
     if (other.empty() || (found && n != 3)) continue;
-    cv::Mat apart = cv::abs(frame - LevelFrame(other));
-    if (apart.channels() == 3) {
-      std::vector<cv::Mat> c;
-      cv::split(apart, c);
-      apart = cv::max(cv::Mat(cv::max(c[0], c[1])), c[2]);
-    }
+    const cv::Mat apart = MostOfChannels(cv::abs(frame - LevelFrame(other)));
     most = cv::max(most, apart), found = true;
   }
   cv::GaussianBlur(most, most, {0, 0}, kUnrestSigma_px, 0, cv::BORDER_REPLICATE);
@@ -64,7 +49,7 @@ cv::Mat UnrestOf(const Place& place, const cv::Mat& frame) {
 // How far the frame's own px lie outside of the scene.
 cv::Mat OutsideOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& own) {
   cv::Mat distance = DistanceTo(scene.interval, level);
-  distance.setTo(0, OwnLevel(own, level.size()) == 0);
+  distance.setTo(0, OwnAtSize(own, level.size()) == 0);
   return distance;
 }
 
@@ -100,7 +85,7 @@ void SegmentSurvey::Add(const Place& place) {
         neighbour.frame.type() != place.current.frame.type())
       throw std::invalid_argument("neighbour is of another size or type than the frame");
   }
-  const cv::Mat frame = LevelFrame(place.current.frame), own = OwnLevel(place.current.own, frame.size());
+  const cv::Mat frame = LevelFrame(place.current.frame), own = OwnAtSize(place.current.own, frame.size());
   if (!samples_.empty() &&
       (samples_[0].frame.size() != frame.size() || samples_[0].frame.type() != frame.type()))
     throw std::invalid_argument("place is of another size or type than the first");
@@ -179,11 +164,8 @@ cv::Mat Segmenter::MaskAt(int i) {
   const int count = static_cast<int>(frames_.size());
   cv::Mat mask;
   if (settings_.method == SegmentMethod::kAof) {
-    Place place{frame, {}};
-    for (int n = 0; n < kMostNeighbours; ++n) {
-      const int k = i + NeighbourAt(n);
-      place.neighbours.push_back(k >= 0 && k < count ? frames_[static_cast<size_t>(k)] : SteadyFrame{});
-    }
+    const Place place = PlaceAt(
+        i, [&](int64_t k) { return k >= 0 && k < count ? &frames_[static_cast<size_t>(k)] : nullptr; });
     const cv::Mat aof = AofOf(*flow_, place, settings_.aof.neighbours).back();
     const double threshold = settings_.aof.threshold_px;
     mask = threshold > 0 ? cv::Mat(aof > threshold) : cv::Mat::zeros(aof.size(), CV_8UC1);

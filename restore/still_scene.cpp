@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "restore/levels.h"
+#include "restore/mask_cleaning.h"
 #include "restore/otsu.h"
 
 namespace shimmer::restore {
@@ -25,10 +27,6 @@ constexpr int kFewest = 2;  // samples that a pixel's median is taken of; of cal
 // The threshold is Otsu's, divided as the paper's authors do, but no less than so many standard deviations of
 // the pixels around the scene, nor than so many levels.
 constexpr double kDivisor = 1.5, kNoiseFactor = 4, kLeastThreshold = 6;
-
-cv::Mat Disc(int radius) {
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
-}
 
 struct Medians {
   cv::Mat picture, known;  // known: CV_8UC1, 255 or 0
@@ -134,14 +132,8 @@ LocalInterval IntervalOf(const cv::Mat& scene, int radius_px) {
 cv::Mat DistanceTo(const LocalInterval& interval, const cv::Mat& frame) {
   const cv::Mat above = frame - interval.high, below = interval.low - frame;
   const cv::Mat outside = cv::max(cv::Mat(cv::max(above, below)), 0);
-  cv::Mat most = outside;
-  if (outside.channels() == 3) {
-    std::vector<cv::Mat> channels;
-    cv::split(outside, channels);
-    most = cv::max(cv::Mat(cv::max(channels[0], channels[1])), channels[2]);
-  }
   cv::Mat smooth;
-  cv::GaussianBlur(most, smooth, {0, 0}, kSmooth_px, 0, cv::BORDER_REPLICATE);
+  cv::GaussianBlur(MostOfChannels(outside), smooth, {0, 0}, kSmooth_px, 0, cv::BORDER_REPLICATE);
   return smooth;
 }
 

@@ -8,7 +8,7 @@
 namespace shimmer::restore::app {
 
 // Frames are written beside, and stand at their place once all of them are there: what a run leaves that was
-// ended is "PATH.part", which the next one replaces.
+// ended is "PATH.part" (of x.mp4 "x.part.mp4"), which the next one replaces.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;  // before Finish(): takes what was written away

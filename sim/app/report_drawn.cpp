@@ -91,10 +91,12 @@ std::string ObjectsHtml(const Key& list, const Json& resolved, const ReportFacts
   std::string html;
   for (size_t i = 0; i < resolved.size(); ++i) {
     const Key object = ElementOf(list, i);
-    if (const Json& chance = resolved[i].at("chance"); chance > 0 && chance < 1) {
-      const ChartTexts texts{.key = object.path + ".present",
-                             .unit = "",
-                             .notes = {"whether it is in the clip", "chance " + ValueText(chance)}};
+    if (const Json& chance = resolved[i].at("chance"); chance.is_object() || (chance > 0 && chance < 1)) {
+      const ChartTexts texts{
+          .key = object.path + ".present",
+          .unit = "",
+          .notes = {"whether it is in the clip",
+                    "chance " + (chance.is_object() ? DistributionText(chance) : ValueText(chance))}};
       html += BarsHtml(texts, RowsOf(ValuesOf(facts, texts.key), {{kChoice, {true, false}}}));
     }
     html += ChartsOf(object, resolved[i], facts);

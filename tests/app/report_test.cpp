@@ -179,20 +179,22 @@ TEST(Reports, SumBytesWhereTheManifestHasThem) {
 // Of each object what it has drawn, and whether it is there.
 TEST(Reports, ShowWhatObjectsHaveDrawn) {
   const TempFolder folder;
-  folder.Put("c.json", SmallConfig({{"clips", 20},
-                                    {"objects",
-                                     {{{"drawn", "disc"}, {"height_px", 9}},
-                                      {{"drawn", {{"choice", {"box", "walker"}}}},
-                                       {"chance", 0.5},
-                                       {"height_px", {{"uniform", {5, 9}}}},
-                                       {"motion", {{"speed_px", {{"uniform", {0, 1}}}}}}}}}}));
+  folder.Put("c.json",
+             SmallConfig({{"clips", 20},
+                          {"objects",
+                           {{{"drawn", "disc"}, {"height_px", 9}},
+                            {{"drawn", {{"choice", {"box", "walker"}}}},
+                             {"chance", 0.5},
+                             {"height_px", {{"uniform", {5, 9}}}},
+                             {"motion", {{"speed_px", {{"uniform", {0, 1}}}}}}},
+                            {{"drawn", "disc"}, {"height_px", 9}, {"chance", {{"choice", {0.3, 0.8}}}}}}}}));
   ExpectDone(Generate(folder, "c.json", "set"));
   std::map<std::string, std::vector<Json>> values;
   for (const Json& line : ManifestLines(folder / "set"))
     for (const auto& [key, value] : line["drawn"].items()) values[key].push_back(value);
   const auto charts = ChartsIn(ReportOf(folder, "set"));
-  for (const char* key :
-       {"objects.1.drawn", "objects.1.present", "objects.1.height_px", "objects.1.motion.speed_px"}) {
+  for (const char* key : {"objects.1.drawn", "objects.1.present", "objects.1.height_px",
+                          "objects.1.motion.speed_px", "objects.2.chance", "objects.2.present"}) {
     SCOPED_TRACE(key);
     ASSERT_EQ(values[key].size(), 20u);
     ASSERT_TRUE(charts.contains(key));

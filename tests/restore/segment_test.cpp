@@ -49,14 +49,7 @@ Video Road(cv::Size size, int type, int count, bool box, double tilt_px = 0.7) {
 std::vector<cv::Mat> Masks(const std::vector<SteadyFrame>& frames, SegmentMethod method) {
   const int count = static_cast<int>(frames.size());
   SegmentSurvey survey(method);
-  for (const int k : SurveyPlaces(count)) {
-    Place place{frames[static_cast<size_t>(k)], {}};
-    for (int n = 0; n < kMostNeighbours; ++n) {
-      const int i = k + NeighbourAt(n);
-      place.neighbours.push_back(i >= 0 && i < count ? frames[static_cast<size_t>(i)] : SteadyFrame{});
-    }
-    survey.Add(place);
-  }
+  for (const int k : SurveyPlaces(count)) survey.Add(PlaceAt(k, frames));
   Segmenter segmenter(survey.Settings());
   std::vector<cv::Mat> masks;
   for (const SteadyFrame& frame : frames)

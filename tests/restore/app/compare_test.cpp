@@ -9,30 +9,19 @@
 #include "cli/exit_codes.h"
 #include "restore/psnr.h"
 #include "restore/ssim.h"
-#include "tests/app/program.h"
+#include "tests/restore/app/unshimmer.h"
 #include "tests/restore/frames.h"
 
 namespace shimmer::restore::app {
 namespace {
 
-using dataset::TempFolder;
-using shimmer::app::ExpectDone;
-using shimmer::app::ExpectOneLine;
-using shimmer::app::Json;
-using shimmer::app::Ran;
-using shimmer::app::ReadText;
-using shimmer::app::Words;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
 Ran Compare(const TempFolder& folder, const Words& more) {
   Words words = {"compare", "--quiet"};
   words.insert(words.end(), more.begin(), more.end());
-  return shimmer::app::Running(folder.path(), words, false, UNSHIMMER_PROGRAM).Wait();
-}
-
-void ExpectRefused(const Ran& ran, int exit_code, const Words& parts) {
-  ExpectOneLine(ran, exit_code, parts, "unshimmer");
+  return Unshimmer(folder, words);
 }
 
 void Put(const TempFolder& folder, const std::string& name, const cv::Mat& frame, int bits = 8) {

@@ -6,37 +6,22 @@
 #include <opencv2/core.hpp>
 
 #include "restore/app/frame_source.h"
-#include "tests/app/program.h"
+#include "tests/restore/app/unshimmer.h"
 #include "tests/restore/frames.h"
 #include "tests/restore/wave_scene.h"
 
 namespace shimmer::restore::app {
 namespace {
 
-using dataset::TempFolder;
-using shimmer::app::ExpectDone;
-using shimmer::app::ExpectOneLine;
-using shimmer::app::Json;
-using shimmer::app::Ran;
-using shimmer::app::ReadText;
-using shimmer::app::Words;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
-
-Ran Unshimmer(const TempFolder& folder, const Words& words) {
-  return shimmer::app::Running(folder.path(), words, false, UNSHIMMER_PROGRAM).Wait();
-}
 
 Ran Restored(const TempFolder& folder, const std::string& video, const std::string& out,
              const Words& more = {}) {
   Words words = {"restore", video, "--out", out, "--quiet"};
   words.insert(words.end(), more.begin(), more.end());
   return Unshimmer(folder, words);
-}
-
-void ExpectRefused(const Ran& ran, int exit_code, const Words& parts) {
-  ExpectOneLine(ran, exit_code, parts, "unshimmer");
 }
 
 std::string NameOf(int k) { return std::string(1, 'f') + std::to_string(1000 + k) + ".png"; }
