@@ -60,7 +60,7 @@ VideoFacts Look(const RestoreOptions& options, Frames& video) {
   cli::Progress progress("places looked at", ReadsOfLook(facts.frames), 0, options.quiet);
   const bool moved = params.stabilise && !IsSteady(facts.shifts);
   facts.scene = LookAtScene(video, moved ? facts.shifts : std::vector<FrameShift>(), facts.grey,
-                            params.method, [&] { progress.Step(); });
+                            params.method, DisFlows(), [&] { progress.Step(); });
   return facts;
 }
 
