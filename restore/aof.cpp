@@ -57,13 +57,19 @@ int NeighbourAt(int n) { return (n % 2 == 0 ? -2 : 2) << (n / 2); }
 std::vector<cv::Mat> AofOf(DenseFlow& flow, const Place& place, int most_neighbours) {
   const cv::Mat frame = HalvedIfLarge(place.current.frame), own = OwnAtSize(place.current.own, frame.size());
   const cv::Mat sure = Sureness(frame);
+  std::vector<cv::Mat> others;
+  for (int n = 0; n < most_neighbours; ++n)
+    if (const cv::Mat& other = place.neighbours[static_cast<size_t>(n)].frame; !other.empty())
+      others.push_back(HalvedIfLarge(other));
+  const std::vector<cv::Mat> flows = flow.Flows(frame, others);
+  auto next = flows.begin();
   cv::Mat sum = cv::Mat::zeros(frame.size(), CV_32FC1), weights = sum.clone();
   std::vector<cv::Mat> result;
   for (int n = 0; n < most_neighbours; ++n) {
     const SteadyFrame& neighbour = place.neighbours[static_cast<size_t>(n)];
     if (!neighbour.frame.empty()) {
       std::vector<cv::Mat> axes;
-      cv::split(flow.Flow(frame, HalvedIfLarge(neighbour.frame)), axes);
+      cv::split(*next++, axes);
       cv::Mat length, weight;
       cv::magnitude(axes[0], axes[1], length);
       OwnAtSize(neighbour.own, frame.size()).convertTo(weight, CV_32F, 1 / 255.0);

@@ -41,27 +41,44 @@ cv::Mat Bytes(const cv::Mat& frame) {
   return bytes;
 }
 
-}  // namespace
-
-cv::Mat DenseFlow::Flow(const cv::Mat& from, const cv::Mat& to) {
-  RequireFrame(from, "from");
-  RequireFrame(to, "to");
-  if (from.size() != to.size() || from.channels() != to.channels())
-    throw std::invalid_argument("flow: frames are of two sizes or numbers of channels");
-  const cv::Size small = HalvedIfLarge(from).size();
-  cv::Mat flow = Compute(Bytes(from), Bytes(to))(cv::Rect({0, 0}, small));
-  if (small == from.size()) return flow;
+// Of what was computed for frames of that size, as Bytes has them.
+cv::Mat AtSize(const cv::Mat& computed, const cv::Mat& frame) {
+  const cv::Size small = HalvedIfLarge(frame).size();
+  cv::Mat flow = computed(cv::Rect({0, 0}, small));
+  if (small == frame.size()) return flow;
   // (an odd last row or column is not of the halves: it continues them)
   cv::Mat large, result;
   cv::resize(flow, large, small * 2, 0, 0, cv::INTER_LINEAR);
-  cv::copyMakeBorder(large * 2, result, 0, from.rows - large.rows, 0, from.cols - large.cols,
+  cv::copyMakeBorder(large * 2, result, 0, frame.rows - large.rows, 0, frame.cols - large.cols,
                      cv::BORDER_REPLICATE);
   return result;
+}
+
+}  // namespace
+
+cv::Mat DenseFlow::Flow(const cv::Mat& from, const cv::Mat& to) { return Flows(from, {to})[0]; }
+
+std::vector<cv::Mat> DenseFlow::Flows(const cv::Mat& from, const std::vector<cv::Mat>& to) {
+  RequireFrame(from, "from");
+  std::vector<cv::Mat> bytes;
+  for (const cv::Mat& frame : to) {
+    RequireFrame(frame, "to");
+    if (from.size() != frame.size() || from.channels() != frame.channels())
+      throw std::invalid_argument("flow: frames are of two sizes or numbers of channels");
+    bytes.push_back(Bytes(frame));
+  }
+  std::vector<cv::Mat> flows = ComputeAll(Bytes(from), bytes);
+  for (cv::Mat& flow : flows) flow = AtSize(flow, from);
+  return flows;
 }
 
 std::unique_ptr<DenseFlow> DisFlow(DisPreset preset) {
   return std::make_unique<Dis>(preset == DisPreset::kFast ? cv::DISOpticalFlow::PRESET_FAST
                                                           : cv::DISOpticalFlow::PRESET_MEDIUM);
+}
+
+FlowMaker DisFlows() {
+  return [] { return DisFlow(); };
 }
 
 cv::Mat HalvedIfLarge(const cv::Mat& frame) {

@@ -1,8 +1,10 @@
 // Where each pixel of a frame is in another: dense optical flow, behind one interface.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace shimmer::restore {
 
@@ -15,16 +17,28 @@ class DenseFlow {
   // one size and number of channels; throws std::invalid_argument. Samples beyond black and white count as
   // those.
   cv::Mat Flow(const cv::Mat& from, const cv::Mat& to);
+  // The same from one frame to each of several.
+  std::vector<cv::Mat> Flows(const cv::Mat& from, const std::vector<cv::Mat>& to);
 
  private:
   // The same of two frames CV_8UC1 or CV_8UC3 (RGB), 16x16 px or more, at their own size.
   virtual cv::Mat Compute(const cv::Mat& from, const cv::Mat& to) = 0;
+  // (Here, so that a library with another flow needs this header alone.)
+  virtual std::vector<cv::Mat> ComputeAll(const cv::Mat& from, const std::vector<cv::Mat>& to) {
+    std::vector<cv::Mat> flows;
+    for (const cv::Mat& frame : to) flows.push_back(Compute(from, frame));
+    return flows;
+  }
 };
 
 // OpenCV's dense inverse search (Kroeger et al. 2016) on grey. Not for two threads at a time. kFast: its
 // preset "fast", which stops at a quarter of the size; kMedium: its preset "medium", for parts of a px.
 enum class DisPreset { kFast, kMedium };
 std::unique_ptr<DenseFlow> DisFlow(DisPreset preset = DisPreset::kFast);
+
+// Makes a flow for each who asks: a flow is not for two threads at a time.
+using FlowMaker = std::function<std::unique_ptr<DenseFlow>()>;
+FlowMaker DisFlows();
 
 inline constexpr int kLargeSide_px = 1000;
 

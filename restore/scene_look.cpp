@@ -45,8 +45,8 @@ class SteadyReader {
 
 // Each place once all of its frames are there; what no later place needs is let go.
 SegmentSettings Survey(SteadyReader& reader, const std::vector<int>& places, int64_t frames,
-                       SegmentMethod method) {
-  SegmentSurvey survey(method);
+                       SegmentMethod method, const FlowMaker& flow) {
+  SegmentSurvey survey(method, flow);
   std::map<int64_t, SteadyFrame> there;
   auto place = places.begin();
   const auto add_whole = [&](int64_t read_up_to) {
@@ -74,11 +74,11 @@ int64_t ReadsOfLook(int64_t frames) {
 }
 
 SceneFacts LookAtScene(Frames& video, std::span<const FrameShift> shifts, bool grey, SegmentMethod method,
-                       const std::function<void()>& step) {
+                       const FlowMaker& flow, const std::function<void()>& step) {
   const int64_t frames = video.count();
   const std::vector<int> places = SurveyPlaces(static_cast<int>(frames));
   SteadyReader reader(video, shifts, grey, step);
-  SceneFacts facts{.segment = Survey(reader, places, frames, method)};
+  SceneFacts facts{.segment = Survey(reader, places, frames, method, flow)};
   StrengthEstimate strength;
   for (const int place : places) {
     const SteadyFrame steady = reader.Read(place);

@@ -23,9 +23,9 @@ struct SceneFacts {
 // At places evenly spread over the video, with their neighbours; then at the places once more, to see what
 // moves there, and how strong the air is elsewhere. shifts: empty where frames are taken as they are; grey:
 // one channel of them. Frames are read forward, but for one start anew. step: called after each read. Throws
-// what reading throws.
+// what reading and the flow throw.
 SceneFacts LookAtScene(Frames& video, std::span<const FrameShift> shifts, bool grey, SegmentMethod method,
-                       const std::function<void()>& step);
+                       const FlowMaker& flow, const std::function<void()>& step);
 
 // How many frames that reads.
 int64_t ReadsOfLook(int64_t frames);

@@ -71,8 +71,8 @@ std::vector<int> SurveyPlaces(int frames, int most) {
   return places;
 }
 
-SegmentSurvey::SegmentSurvey(SegmentMethod method, std::unique_ptr<DenseFlow> flow)
-    : method_(method), flow_(std::move(flow)) {}
+SegmentSurvey::SegmentSurvey(SegmentMethod method, FlowMaker flow)
+    : method_(method), maker_(std::move(flow)), flow_(maker_()) {}
 
 void SegmentSurvey::Add(const Place& place) {
   RequireSteady(place.current);
@@ -97,7 +97,7 @@ void SegmentSurvey::Add(const Place& place) {
 
 SegmentSettings SegmentSurvey::Settings() const {
   if (samples_.empty()) throw std::invalid_argument("survey without a place");
-  SegmentSettings settings{method_, choice_.Settings(), {}};
+  SegmentSettings settings{method_, choice_.Settings(), {}, maker_};
   if (method_ == SegmentMethod::kAof) return settings;
   // Where nothing moves Otsu's threshold parts turbulence itself: movers of which the scene is freed are well
   // beyond what is typical.
@@ -122,9 +122,9 @@ cv::Mat MovingAt(const SegmentSettings& settings, const SteadyFrame& frame) {
   return moving;
 }
 
-Segmenter::Segmenter(SegmentSettings settings, std::unique_ptr<DenseFlow> flow)
+Segmenter::Segmenter(SegmentSettings settings)
     : settings_(std::move(settings)),
-      flow_(std::move(flow)),
+      flow_(settings_.method == SegmentMethod::kAof ? settings_.flow() : nullptr),
       ahead_(settings_.method == SegmentMethod::kAof ? kReach : 1) {}
 
 std::optional<cv::Mat> Segmenter::Next(const SteadyFrame& frame) {

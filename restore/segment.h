@@ -25,6 +25,7 @@ struct SegmentSettings {
   SegmentMethod method;
   AofSettings aof;
   StillScene scene;  // of kFused
+  FlowMaker flow;    // by which aof was settled; of kAof
 };
 
 // Where to look in a video of so many frames: evenly spread, at most 32 of them, in order.
@@ -32,7 +33,7 @@ std::vector<int> SurveyPlaces(int frames, int most = 32);
 
 class SegmentSurvey {
  public:
-  explicit SegmentSurvey(SegmentMethod method, std::unique_ptr<DenseFlow> flow = DisFlow());
+  explicit SegmentSurvey(SegmentMethod method, FlowMaker flow = DisFlows());
 
   // Frames as levels.h takes them, all of one size and type. Throws std::invalid_argument. Memory: a float
   // frame of HalvedIfLarge's size a place, and 11 bytes a px.
@@ -42,6 +43,7 @@ class SegmentSurvey {
 
  private:
   SegmentMethod method_;
+  FlowMaker maker_;
   std::unique_ptr<DenseFlow> flow_;
   AofChoice choice_;
   std::vector<SceneSample> samples_;
@@ -56,7 +58,7 @@ cv::Mat MovingAt(const SegmentSettings& settings, const SteadyFrame& frame);
 // Memory: those frames and the settings.
 class Segmenter {
  public:
-  explicit Segmenter(SegmentSettings settings, std::unique_ptr<DenseFlow> flow = DisFlow());
+  explicit Segmenter(SegmentSettings settings);
 
   // The mask of an earlier frame, if one is ready: CV_8UC1 of the frame's size, 0 still, 255 moving, between
   // them unsure (128 and more: rather moving). 0 where the frame is filled. Throws std::invalid_argument for
@@ -70,11 +72,11 @@ class Segmenter {
   cv::Mat MaskAt(int i);
 
   SegmentSettings settings_;
-  std::unique_ptr<DenseFlow> flow_;
-  int ahead_, next_ = 0;            // next_: of frames_, whose mask is given out next
-  std::deque<SteadyFrame> frames_;  // kAof: whole; kFused: own alone
-  std::deque<cv::Mat> distances_;   // kFused
-  std::deque<cv::Mat> objects_;     // kFused
+  std::unique_ptr<DenseFlow> flow_;  // kAof
+  int ahead_, next_ = 0;             // next_: of frames_, whose mask is given out next
+  std::deque<SteadyFrame> frames_;   // kAof: whole; kFused: own alone
+  std::deque<cv::Mat> distances_;    // kFused
+  std::deque<cv::Mat> objects_;      // kFused
 };
 
 }  // namespace shimmer::restore

@@ -4,6 +4,7 @@
 #   scripts/setup.sh             what building, the demo and the tests need
 #   scripts/setup.sh --photos    also 36 real photographs (wallpapers), those of configs/photos_*.txt
 #   scripts/setup.sh --training  also what scripts/train/shimmer_dataset.py reads sets with, and PyTorch
+#   scripts/setup.sh --torch     also libtorch, for restoration by networks: then cmake --preset release -DSHIMMER_TORCH=ON
 #   scripts/setup.sh --all       all of it, with the peers that some tests compare against
 set -euo pipefail
 
@@ -18,6 +19,7 @@ required=(
 )
 photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
 training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml)
+torch=(libtorch-dev)
 # Peers that single tests use: the noise library that the paper names; readers of what we write, a browser too.
 peers=(python3-noise python3-jsonschema python3-pil chromium fonts-dejavu-core)
 cluster=(slurm-wlm munge)  # of which a test starts its own
@@ -27,8 +29,9 @@ for option in "$@"; do
   case "$option" in
     --photos) packages+=("${photos[@]}") ;;
     --training) packages+=("${training[@]}") ;;
-    --all) packages+=("${photos[@]}" "${training[@]}" "${peers[@]}" "${cluster[@]}") ;;
-    *) echo "setup.sh: unknown option '$option'; --photos, --training and --all are those there are" >&2; exit 2 ;;
+    --torch) packages+=("${torch[@]}") ;;
+    --all) packages+=("${photos[@]}" "${training[@]}" "${torch[@]}" "${peers[@]}" "${cluster[@]}") ;;
+    *) echo "setup.sh: unknown option '$option'; --photos, --training, --torch and --all are those there are" >&2; exit 2 ;;
   esac
 done
 

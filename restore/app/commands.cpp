@@ -56,6 +56,10 @@ int RunUnshimmer(int argc, const char* const* argv, const std::atomic<bool>& (*l
             "paper's averaged flow")
         ->transform(CLI::CheckedTransformer(std::map<std::string, SegmentMethod>{
             {"fused", SegmentMethod::kFused}, {"aof", SegmentMethod::kAof}}));
+    command.add_option(
+        "--flow", restore.flow,
+        "the optical flow by which what moves is found: dis, OpenCV's (default), or a network's, a file of "
+        "TorchScript as raft.pt, in builds that have it");
     command
         .add_option("--register", restore.params.registered,
                     "whether frames are registered to one another before they are averaged: auto (default), "

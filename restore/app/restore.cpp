@@ -13,6 +13,7 @@
 #include "restore/app/plan_text.h"
 #include "restore/app/stage_files.h"
 #include "restore/pipeline.h"
+#include "restore/torch_flow.h"
 
 namespace shimmer::restore::app {
 namespace {
@@ -35,6 +36,11 @@ class FileFrames : public Frames {
   const std::atomic<bool>& stop_;
 };
 
+FlowMaker FlowOf(const RestoreOptions& options) {
+  if (options.flow == "dis") return DisFlows();
+  return TorchFlows(options.flow);
+}
+
 // No more threads than were asked for, while it lives.
 class Threads {
  public:
@@ -49,7 +55,7 @@ class Threads {
   tbb::global_control control_;
 };
 
-VideoFacts Look(const RestoreOptions& options, Frames& video) {
+VideoFacts Look(const RestoreOptions& options, const FlowMaker& flow, Frames& video) {
   const RestoreParams& params = options.params;
   VideoFacts facts;
   {
@@ -60,7 +66,7 @@ VideoFacts Look(const RestoreOptions& options, Frames& video) {
   cli::Progress progress("places looked at", ReadsOfLook(facts.frames), 0, options.quiet);
   const bool moved = params.stabilise && !IsSteady(facts.shifts);
   facts.scene = LookAtScene(video, moved ? facts.shifts : std::vector<FrameShift>(), facts.grey,
-                            params.method, [&] { progress.Step(); });
+                            params.method, flow, [&] { progress.Step(); });
   return facts;
 }
 
@@ -70,7 +76,7 @@ void Run(const RestoreOptions& options, dataset::FrameReader& reader, const std:
   const std::unique_ptr<FrameSink> out = OpenSink(options.out, frames_per_s);
   const std::unique_ptr<StageFiles> stages =
       options.stages.empty() ? nullptr : std::make_unique<StageFiles>(options.stages);
-  const VideoFacts facts = Look(options, video);
+  const VideoFacts facts = Look(options, FlowOf(options), video);
   const RestorePlan plan = PlanRestore(facts, options.params);
   cli::Progress progress("frames restored", facts.frames, 0, options.quiet);
   Restore(video, facts, plan, [&](const FrameOnWay& frame) {
@@ -101,7 +107,7 @@ int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop) {
   try {
     const auto reader = OpenFrames(options.video, stop);
     FileFrames video(*reader, stop);
-    const VideoFacts facts = Look(options, video);
+    const VideoFacts facts = Look(options, FlowOf(options), video);
     cli::Print(PlanText(facts, PlanRestore(facts, options.params)));
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;

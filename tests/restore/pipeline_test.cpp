@@ -56,7 +56,7 @@ Outcome RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {
     const bool moved = params.stabilise && !IsSteady(run.facts.shifts);
     int64_t reads = 0;
     run.facts.scene = LookAtScene(frames, moved ? run.facts.shifts : std::vector<FrameShift>(),
-                                  run.facts.grey, params.method, [&] { ++reads; });
+                                  run.facts.grey, params.method, DisFlows(), [&] { ++reads; });
     EXPECT_EQ(reads, ReadsOfLook(frames.count()));
   }
   run.plan = PlanRestore(run.facts, params);
