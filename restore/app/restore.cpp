@@ -49,14 +49,14 @@ class Threads {
   tbb::global_control control_;
 };
 
-VideoFacts Look(const RestoreOptions& options, Frames& video) {
+VideoFacts Look(const RestoreOptions& options, const std::optional<Optics>& optics, Frames& video) {
   const RestoreParams& params = options.params;
   VideoFacts facts;
   {
     cli::Progress progress("frames looked at", video.count(), 0, options.quiet);
     facts = LookAt(video, params.shake, [&] { progress.Step(); });
   }
-  if (facts.alike || !params.stack) return facts;
+  if (facts.alike || !(params.stack || optics)) return facts;
   cli::Progress progress("places looked at", ReadsOfLook(facts.frames), 0, options.quiet);
   const bool moved = params.stabilise && !IsSteady(facts.shifts);
   facts.scene = LookAtScene(video, moved ? facts.shifts : std::vector<FrameShift>(), facts.grey,
@@ -64,13 +64,14 @@ VideoFacts Look(const RestoreOptions& options, Frames& video) {
   return facts;
 }
 
-void Run(const RestoreOptions& options, dataset::FrameReader& reader, const std::atomic<bool>& stop) {
+void Run(const RestoreOptions& options, const std::optional<Optics>& optics, dataset::FrameReader& reader,
+         const std::atomic<bool>& stop) {
   FileFrames video(reader, stop);
   const double frames_per_s = options.frames_per_s.value_or(reader.frames_per_s().value_or(kFramesPerS));
   const std::unique_ptr<FrameSink> out = OpenSink(options.out, frames_per_s);
   const std::unique_ptr<StageFiles> stages =
       options.stages.empty() ? nullptr : std::make_unique<StageFiles>(options.stages);
-  const VideoFacts facts = Look(options, video);
+  const VideoFacts facts = Look(options, optics, video);
   const RestorePlan plan = PlanRestore(facts, options.params);
   cli::Progress progress("frames restored", facts.frames, 0, options.quiet);
   Restore(video, facts, plan, [&](const FrameOnWay& frame) {
@@ -79,17 +80,18 @@ void Run(const RestoreOptions& options, dataset::FrameReader& reader, const std:
     progress.Step();
   });
   progress.End();
-  if (stages) stages->Finish(facts, plan);
+  if (stages) stages->Finish(facts, plan, optics);
   out->Finish();
 }
 
 }  // namespace
 
 int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop) {
+  const std::optional<Optics> optics = OpticsOf(options.optics);
   const Threads threads(options.threads);
   try {
     const auto reader = OpenFrames(options.video, stop);
-    Run(options, *reader, stop);
+    Run(options, optics, *reader, stop);
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;
   }
@@ -97,12 +99,13 @@ int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop) {
 }
 
 int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop) {
+  const std::optional<Optics> optics = OpticsOf(options.optics);
   const Threads threads(options.threads);
   try {
     const auto reader = OpenFrames(options.video, stop);
     FileFrames video(*reader, stop);
-    const VideoFacts facts = Look(options, video);
-    cli::Print(PlanText(facts, PlanRestore(facts, options.params)));
+    const VideoFacts facts = Look(options, optics, video);
+    cli::Print(PlanText(facts, PlanRestore(facts, options.params), optics));
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;
   }

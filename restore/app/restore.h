@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "restore/app/optics_options.h"
 #include "restore/plan.h"
 
 namespace shimmer::restore::app {
@@ -12,12 +13,13 @@ namespace shimmer::restore::app {
 struct RestoreOptions {
   std::filesystem::path video, out, stages;  // stages may be empty: not wanted
   RestoreParams params;
+  OpticsOptions optics;
   std::optional<double> frames_per_s;  // of a video that is written
   int threads = 0;                     // 0: all
   bool quiet = false;
 };
 
-// Both return the exit code, and throw as OpenFrames, LookAt, PlanRestore and OpenSink do.
+// Both return the exit code, and throw as OpticsOf, OpenFrames, LookAt, PlanRestore and OpenSink do.
 int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop);
 int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop);
 
