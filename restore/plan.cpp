@@ -34,9 +34,25 @@ void PlanSteadying(const VideoFacts& facts, const RestoreParams& params, Restore
   plan.fill = params.border == Border::kFill;
   if (plan.fill) return;
   plan.area = CommonArea(facts.shifts, facts.size);
+  if (!plan.area.empty()) plan.area += plan.picture.tl();
   if (plan.area.empty())
     throw std::invalid_argument("border = crop leaves nothing: no px is on all frames, shifts reach " +
                                 Px(MostShift_px(facts)) + ". Must be fill, or a shorter part of the video");
+}
+
+void PlanPicture(const VideoFacts& facts, RestorePlan& plan) {
+  const Changing& changing = facts.changing;
+  const bool bars = !changing.first.empty();
+  plan.size = bars ? changing.first.size() : facts.size;
+  plan.picture = bars ? changing.area : cv::Rect({}, facts.size);
+  plan.area = cv::Rect({}, plan.size);
+  if (!bars) return;
+  char line[160];
+  std::snprintf(line, sizeof line,
+                "bars around the picture: they never change, %.2f %% of the frame; %dx%d px from (%d, %d) do",
+                100 - 100.0 * plan.picture.area() / plan.size.area(), plan.picture.width, plan.picture.height,
+                plan.picture.x, plan.picture.y);
+  plan.skipped.emplace_back(line);
 }
 
 // Below it the tilt is less than what the averaging of frames itself makes softer.
@@ -67,11 +83,13 @@ void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan
 }  // namespace
 
 RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params) {
-  RestorePlan plan{.size = facts.size,
+  RestorePlan plan{.size = {},
                    .frames = facts.frames,
                    .grey = facts.grey,
                    .alike = facts.alike,
-                   .area = cv::Rect({}, facts.size)};
+                   .picture = {},
+                   .area = {}};
+  PlanPicture(facts, plan);
   const auto skip = [&](const std::string& line) { plan.skipped.push_back(line); };
   if (plan.grey && CV_MAT_CN(facts.type) == 3) skip("two of three channels: they are equal everywhere");
   if (plan.alike) {

@@ -59,6 +59,28 @@ class Cut : public Stage {
   cv::Rect area_;
 };
 
+// The bars that never change around it again, as they are in the first frame.
+class PutBack : public Stage {
+ public:
+  PutBack(const cv::Mat& first, cv::Rect picture) : first_(first), picture_(picture) {}
+
+  std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    cv::Mat whole;
+    if (frame.frame.channels() < first_.channels())
+      cv::extractChannel(first_, whole, 0);
+    else
+      whole = first_.clone();
+    frame.frame.copyTo(whole(picture_));
+    frame.frame = whole;
+    return {frame};
+  }
+  std::vector<FrameOnWay> Rest() override { return {}; }
+
+ private:
+  cv::Mat first_;
+  cv::Rect picture_;
+};
+
 // The same, and what it does not see filled from its neighbours.
 class Fill : public Stage {
  public:
@@ -193,7 +215,10 @@ std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const Vide
         std::make_unique<Stack>(BackgroundParams{.ahead = plan.ahead, .registered = plan.registered}));
     stages.push_back(std::make_unique<Blend>());
   }
-  if (plan.area.size() != plan.size) stages.push_back(std::make_unique<Cut>(plan.area));
+  if (plan.area.size() != plan.size)
+    stages.push_back(std::make_unique<Cut>(plan.area - plan.picture.tl()));
+  else if (plan.picture.size() != plan.size)
+    stages.push_back(std::make_unique<PutBack>(facts.changing.first, plan.picture));
   return stages;
 }
 

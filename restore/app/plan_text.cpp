@@ -73,8 +73,8 @@ std::string SceneText(const SceneFacts& scene) {
 }  // namespace
 
 std::string PlanText(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics) {
-  std::string text = "frames    " + cli::Grouped(facts.frames) + " of " + std::to_string(facts.size.width) +
-                     "x" + std::to_string(facts.size.height) + " px, " + KindText(facts.type) + "\n" +
+  std::string text = "frames    " + cli::Grouped(facts.frames) + " of " + std::to_string(plan.size.width) +
+                     "x" + std::to_string(plan.size.height) + " px, " + KindText(facts.type) + "\n" +
                      ShakeText(facts);
   std::string stages;
   if (plan.stabilise) stages += plan.fill ? ", stabilise and fill" : ", stabilise and crop";
@@ -104,6 +104,7 @@ Json PlanJson(const VideoFacts& facts, const RestorePlan& plan) {
           {"grey", plan.grey},
           {"stabilise", plan.stabilise},
           {"fill", plan.fill},
+          {"picture", {plan.picture.x, plan.picture.y, plan.picture.width, plan.picture.height}},
           {"area", {plan.area.x, plan.area.y, plan.area.width, plan.area.height}},
           {"segment", plan.segment},
           {"stack", plan.stack},

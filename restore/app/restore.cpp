@@ -49,12 +49,20 @@ class Threads {
   tbb::global_control control_;
 };
 
-VideoFacts Look(const RestoreOptions& options, const std::optional<Optics>& optics, Frames& video) {
+Changing Compare(const RestoreOptions& options, Frames& video) {
+  cli::Progress progress("frames compared", video.count(), 0, options.quiet);
+  return FindChanging(video, [&] { progress.Step(); });
+}
+
+// video: the inside of what changes.
+VideoFacts Look(const RestoreOptions& options, const std::optional<Optics>& optics, const Changing& changing,
+                Frames& video) {
   const RestoreParams& params = options.params;
   VideoFacts facts;
   {
     cli::Progress progress("frames looked at", video.count(), 0, options.quiet);
-    facts = LookAt(video, params.shake, [&] { progress.Step(); });
+    facts = LookAt(
+        video, params.shake, [&] { progress.Step(); }, changing);
   }
   if (facts.alike || !(params.stack || optics)) return facts;
   cli::Progress progress("places looked at", ReadsOfLook(facts.frames), 0, options.quiet);
@@ -66,12 +74,14 @@ VideoFacts Look(const RestoreOptions& options, const std::optional<Optics>& opti
 
 void Run(const RestoreOptions& options, const std::optional<Optics>& optics, dataset::FrameReader& reader,
          const std::atomic<bool>& stop) {
-  FileFrames video(reader, stop);
+  FileFrames file(reader, stop);
   const double frames_per_s = options.frames_per_s.value_or(reader.frames_per_s().value_or(kFramesPerS));
   const std::unique_ptr<FrameSink> out = OpenSink(options.out, frames_per_s);
   const std::unique_ptr<StageFiles> stages =
       options.stages.empty() ? nullptr : std::make_unique<StageFiles>(options.stages);
-  const VideoFacts facts = Look(options, optics, video);
+  const Changing changing = Compare(options, file);
+  Inside video(file, changing.area);
+  const VideoFacts facts = Look(options, optics, changing, video);
   const RestorePlan plan = PlanRestore(facts, options.params);
   cli::Progress progress("frames restored", facts.frames, 0, options.quiet);
   Restore(video, facts, plan, [&](const FrameOnWay& frame) {
@@ -103,8 +113,10 @@ int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop) {
   const Threads threads(options.threads);
   try {
     const auto reader = OpenFrames(options.video, stop);
-    FileFrames video(*reader, stop);
-    const VideoFacts facts = Look(options, optics, video);
+    FileFrames file(*reader, stop);
+    const Changing changing = Compare(options, file);
+    Inside video(file, changing.area);
+    const VideoFacts facts = Look(options, optics, changing, video);
     cli::Print(PlanText(facts, PlanRestore(facts, options.params), optics));
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;

@@ -94,6 +94,7 @@ Json StrengthJson(const TurbulenceStrength& strength, const std::optional<Optics
           {"texture", strength.texture},
           {"noise_levels", strength.noise_levels},
           {"square_px", strength.square_px},
+          {"map_from_px", {plan.picture.x, plan.picture.y}},
           {"map_tilt_variance_px2", Rows(strength.map, 1)},
           {"map_cn2", optics ? Rows(strength.map, factor) : Json()}};
 }

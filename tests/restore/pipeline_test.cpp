@@ -9,20 +9,11 @@
 #include "restore/border_fill.h"
 #include "restore/translate.h"
 #include "tests/restore/frames.h"
+#include "tests/restore/memory_frames.h"
 #include "tests/restore/wave_scene.h"
 
 namespace shimmer::restore {
 namespace {
-
-class MemoryFrames : public Frames {
- public:
-  explicit MemoryFrames(std::vector<cv::Mat> frames) : frames_(std::move(frames)) {}
-  int64_t count() override { return std::ssize(frames_); }
-  cv::Mat Read(int64_t frame) override { return frames_.at(static_cast<size_t>(frame)); }
-
- private:
-  std::vector<cv::Mat> frames_;
-};
 
 bool Same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
@@ -47,10 +38,13 @@ struct Outcome {
 };
 
 Outcome RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {}) {
-  MemoryFrames frames(video);
+  MemoryFrames all(video);
+  const Changing changing = FindChanging(all, [] {});
+  Inside frames(all, changing.area);
   Outcome run;
   int64_t looked_at = 0;
-  run.facts = LookAt(frames, params.shake, [&] { ++looked_at; });
+  run.facts = LookAt(
+      frames, params.shake, [&] { ++looked_at; }, changing);
   EXPECT_EQ(looked_at, frames.count());
   if (params.stack && !run.facts.alike) {
     const bool moved = params.stabilise && !IsSteady(run.facts.shifts);
@@ -135,6 +129,44 @@ TEST(Restore, LeavesAloneWhatNeedsNothing) {
   EXPECT_TRUE(Skips(run.plan, "segmenting, stacking and blending: the turbulence is too weak"));
   for (size_t k = 0; k < standing.size(); ++k) EXPECT_TRUE(Same(run.frames[k].frame, standing[k]));
   EXPECT_FALSE(RunOn(Shaken(6), {.stabilise = false}).plan.stabilise);
+}
+
+// Bars around it stay as they are, bit by bit, and inside is what comes of the picture alone.
+TEST(Restore, PutsBackTheBarsAroundAPicture) {
+  const cv::Rect inside(0, 20, 160, 90);
+  for (const int channels : {1, 3})
+    for (const double most_px : {0.0, 9.0}) {
+      std::vector<cv::Mat> pictures, video;
+      for (int k = 0; k < 20; ++k) {
+        cv::Mat picture;
+        SeenFrame({.size = inside.size(),
+                   .shift = WanderingShift(k, most_px),
+                   .tilt_rms_px = 0.5,
+                   .frame = static_cast<uint32_t>(k)})
+            .convertTo(picture, CV_8U, 255);
+        if (channels == 3) cv::merge(std::vector{picture, picture, picture}, picture);
+        pictures.push_back(picture);
+        video.push_back(cv::Mat(130, 160, picture.type(), cv::Scalar::all(16)));
+        video.back()(cv::Rect(5, 115, 30, 9)).setTo(cv::Scalar(30, 30, channels == 3 ? 200 : 0));
+        picture.copyTo(video.back()(inside));
+      }
+      const Outcome alone = RunOn(pictures), run = RunOn(video);
+      EXPECT_EQ(run.plan.size, cv::Size(160, 130));
+      EXPECT_EQ(run.plan.picture, inside);
+      EXPECT_EQ(run.plan.stabilise, most_px > 0);
+      EXPECT_TRUE(run.plan.stack);
+      EXPECT_TRUE(Skips(run.plan, "bars around the picture: they never change, 30.77 % of the frame"));
+      for (size_t k = 0; k < video.size(); ++k) {
+        cv::Mat expected = video[0].clone(), picture = alone.frames[k].frame;
+        if (channels == 3) cv::merge(std::vector{picture, picture, picture}, picture);  // (grey is one)
+        picture.copyTo(expected(inside));
+        EXPECT_TRUE(Same(run.frames[k].frame, expected)) << k;
+      }
+      if (most_px == 0) continue;
+      const Outcome cropped = RunOn(video, {.border = Border::kCrop});
+      EXPECT_EQ(cropped.plan.area, RunOn(pictures, {.border = Border::kCrop}).plan.area + inside.tl());
+      EXPECT_EQ(cropped.frames[3].frame.size(), cropped.plan.area.size());
+    }
 }
 
 // The whole of it: a shaken scene in strong air, a box that crosses it.

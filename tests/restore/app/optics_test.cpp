@@ -83,6 +83,7 @@ TEST(Cn2OfAVideo, HasAMap) {
   MakeClip(folder, 4);
   const Json json = Strength(folder, kOptics);
   EXPECT_EQ(json.at("square_px"), 16);
+  EXPECT_EQ(json.at("map_from_px"), Json({0, 0}));
   const Json& variances = json.at("map_tilt_variance_px2");
   ASSERT_EQ(variances.size(), 12u);
   ASSERT_EQ(variances[0].size(), 16u);
