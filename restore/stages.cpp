@@ -1,11 +1,13 @@
 #include "restore/stages.h"
 
 #include <deque>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "restore/background.h"
 #include "restore/blend.h"
 #include "restore/border_fill.h"
+#include "restore/levels.h"
 #include "restore/segment.h"
 #include "restore/translate.h"
 
@@ -162,11 +164,25 @@ class Segment : public Stage {
   Waiting waiting_;
 };
 
+// The still scene that the look at the video has found, as a frame of that size and type. Empty where it
+// found none (kAof).
+cv::Mat PictureOf(const StillScene& scene, cv::Size size, int type) {
+  if (scene.picture.empty()) return {};
+  cv::Mat large, picture;
+  cv::resize(scene.picture, large, size, 0, 0, cv::INTER_LINEAR);
+  large.convertTo(picture, CV_MAT_DEPTH(type), WhiteOf(CV_MAT_DEPTH(type)) / 255);
+  return picture;
+}
+
+// scene: what lies behind a px that is hidden from the first frame on.
 class Stack : public Stage {
  public:
-  explicit Stack(const BackgroundParams& params) : background_(params) {}
+  Stack(const BackgroundParams& params, const StillScene& scene) : background_(params), scene_(scene) {}
 
   std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    if (frame.index == 0)
+      if (const cv::Mat picture = PictureOf(scene_, frame.frame.size(), frame.frame.type()); !picture.empty())
+        background_.StartFrom(picture);
     waiting_.Add(frame);
     return WithBackground(background_.Next({frame.frame, frame.own}, frame.mask));
   }
@@ -186,6 +202,7 @@ class Stack : public Stage {
   }
 
   Background background_;
+  const StillScene& scene_;
   Waiting waiting_;
 };
 
@@ -211,8 +228,8 @@ std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const Vide
   stages.push_back(std::make_unique<Keep>());
   if (plan.segment) stages.push_back(std::make_unique<Segment>(facts.scene->segment));
   if (plan.stack) {
-    stages.push_back(
-        std::make_unique<Stack>(BackgroundParams{.ahead = plan.ahead, .registered = plan.registered}));
+    stages.push_back(std::make_unique<Stack>(
+        BackgroundParams{.ahead = plan.ahead, .registered = plan.registered}, facts.scene->segment.scene));
     stages.push_back(std::make_unique<Blend>());
   }
   if (plan.area.size() != plan.size)

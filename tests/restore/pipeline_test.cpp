@@ -212,6 +212,37 @@ TEST(Restore, MakesATurbulentSceneClearAndKeepsWhatMoves) {
   EXPECT_LT(kept / (kFrames - 8), 15);
 }
 
+// Something that stands where it is for as long as the first frame's window is, and then drives off: what
+// lies behind it is there from frame 0 on, as the look at the video found it.
+TEST(Restore, KnowsWhatLiesBehindWhatStoodAtFirst) {
+  const cv::Size size(200, 150);
+  std::vector<cv::Mat> video;
+  const auto box_in = [](int k) { return cv::Rect(40 + std::max(0, 9 * (k - 18)), 60, 36, 28); };
+  for (int k = 0; k < 80; ++k) {
+    cv::Mat frame = SeenFrame({.size = size,
+                               .tilt_rms_px = 1,
+                               .frame = static_cast<uint32_t>(k),
+                               .box = box_in(k),
+                               .box_in_air = true});
+    if (const cv::Rect box = box_in(k) & cv::Rect({}, size); !box.empty()) frame(box) -= 0.3;  // dark
+    frame.convertTo(video.emplace_back(), CV_8U, 255);
+  }
+  cv::Mat clean;
+  SeenFrame({.size = size}).convertTo(clean, CV_8U, 255);
+  const Outcome run = RunOn(video);
+  ASSERT_TRUE(run.plan.stack && run.plan.segment);
+  // Its inner px: what the mask may leave of its rim is another matter.
+  const cv::Rect inner(box_in(0).x + 4, box_in(0).y + 4, 28, 20);
+  const auto off = [&](const cv::Mat& frame) {
+    return cv::norm(frame(inner), clean(inner), cv::NORM_L1) / inner.area();
+  };
+  EXPECT_GT(off(video[0]), 60);  // the box itself
+  // (7 % of it look like the scene and are in no mask: they are what is left, most of it)
+  for (const size_t k : {0u, 1u, 10u, 20u, 40u, 79u}) EXPECT_LT(off(run.frames[k].background), 12) << k;
+  const FrameOnWay& first = run.frames[0];  // and it stands in front of it
+  EXPECT_LT(cv::norm(first.frame(inner), video[0](inner), cv::NORM_L1) / inner.area(), 15);
+}
+
 TEST(LookAt, KnowsColourFromGreyInAnyDepth) {
   for (const int depth : {CV_8U, CV_16U, CV_32F}) {
     cv::Mat grey;
