@@ -42,7 +42,12 @@ struct RestorePlan {
   friend bool operator==(const RestorePlan&, const RestorePlan&) = default;
 };
 
-// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see.
+// Whether there is a still scene to look at (LookAtScene): not where nothing changes, and not where a camera
+// that is to be followed shows no one scene.
+bool HasOneScene(const VideoFacts& facts, const RestoreParams& params);
+
+// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see, and for a video that
+// goes over to another scene (LastingCut), unless its camera is taken to have stood.
 RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params);
 
 }  // namespace shimmer::restore

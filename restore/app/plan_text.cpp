@@ -49,7 +49,10 @@ std::string ShakeText(const VideoFacts& facts) {
 // A steadied video has lost what is common to a whole frame, of the air too.
 std::string Cn2Text(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics) {
   const std::string name = "Cn2       ";
-  if (!facts.scene) return optics ? name + "not found: nothing changes\n" : "";
+  if (!facts.scene) {
+    if (!optics) return "";
+    return name + "not found: " + (facts.alike ? "nothing changes" : "there is no still scene") + "\n";
+  }
   const TurbulenceStrength& strength = facts.scene->strength;
   if (strength.texture == 0) return name + "not found: there is no texture to tell it by\n";
   const std::string at_least = plan.stabilise ? "at least " : "";

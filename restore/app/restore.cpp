@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "cli/command_line.h"
+#include "cli/error_line.h"
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
 #include "restore/app/frame_sink.h"
@@ -64,7 +65,7 @@ VideoFacts Look(const RestoreOptions& options, const std::optional<Optics>& opti
     facts = LookAt(
         video, params.shake, [&] { progress.Step(); }, changing);
   }
-  if (facts.alike || !(params.stack || optics)) return facts;
+  if (!HasOneScene(facts, params) || !(params.stack || optics)) return facts;
   cli::Progress progress("places looked at", ReadsOfLook(facts.frames), 0, options.quiet);
   const bool moved = params.stabilise && !IsSteady(facts.shifts);
   facts.scene = LookAtScene(video, moved ? facts.shifts : std::vector<FrameShift>(), facts.grey,
@@ -94,13 +95,22 @@ void Run(const RestoreOptions& options, const std::optional<Optics>& optics, dat
   out->Finish();
 }
 
+// Says what is odd about a video that can be used all the same: one that was cut off, for instance.
+std::unique_ptr<dataset::FrameReader> Opened(const RestoreOptions& options, const std::atomic<bool>& stop) {
+  auto reader = OpenFrames(options.video, stop);
+  reader->count();
+  if (const std::string remark = reader->remark(); !remark.empty())
+    cli::PrintError("unshimmer", options.video.string() + ": " + remark);
+  return reader;
+}
+
 }  // namespace
 
 int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop) {
   const std::optional<Optics> optics = OpticsOf(options.optics);
   const Threads threads(options.threads);
   try {
-    const auto reader = OpenFrames(options.video, stop);
+    const auto reader = Opened(options, stop);
     Run(options, optics, *reader, stop);
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;
@@ -112,7 +122,7 @@ int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop) {
   const std::optional<Optics> optics = OpticsOf(options.optics);
   const Threads threads(options.threads);
   try {
-    const auto reader = OpenFrames(options.video, stop);
+    const auto reader = Opened(options, stop);
     FileFrames file(*reader, stop);
     const Changing changing = Compare(options, file);
     Inside video(file, changing.area);

@@ -46,7 +46,7 @@ Outcome RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {
   run.facts = LookAt(
       frames, params.shake, [&] { ++looked_at; }, changing);
   EXPECT_EQ(looked_at, frames.count());
-  if (params.stack && !run.facts.alike) {
+  if (params.stack && HasOneScene(run.facts, params)) {
     const bool moved = params.stabilise && !IsSteady(run.facts.shifts);
     int64_t reads = 0;
     run.facts.scene = LookAtScene(frames, moved ? run.facts.shifts : std::vector<FrameShift>(),
@@ -241,6 +241,43 @@ TEST(Restore, KnowsWhatLiesBehindWhatStoodAtFirst) {
   for (const size_t k : {0u, 1u, 10u, 20u, 40u, 79u}) EXPECT_LT(off(run.frames[k].background), 12) << k;
   const FrameOnWay& first = run.frames[0];  // and it stands in front of it
   EXPECT_LT(cv::norm(first.frame(inner), video[0](inner), cv::NORM_L1) / inner.area(), 15);
+}
+
+// Where everything moves, or the camera pans out of its first picture, no mean of frames is a scene: they are
+// put out as they are.
+TEST(Restore, LeavesAloneWhatMovesEverywhere) {
+  const cv::Mat scene = Blots({800, 120}, 5);
+  const std::pair<int, const char*> cases[] = {{20, "everything: "},
+                                               {2, "segmenting, stacking and blending: most of the picture"}};
+  for (const auto& [px_a_frame, why] : cases) {
+    std::vector<cv::Mat> video;
+    for (int k = 0; k < 30; ++k) video.push_back(scene({px_a_frame * k, 0, 160, 120}).clone());
+    // The slow one could be followed; not by a camera that is taken to stand.
+    for (const SegmentMethod method : {SegmentMethod::kFused, SegmentMethod::kAof}) {
+      const Outcome run = RunOn(video, {.stabilise = px_a_frame > 9, .method = method});
+      EXPECT_FALSE(run.plan.stabilise || run.plan.segment || run.plan.stack);
+      EXPECT_TRUE(Skips(run.plan, why)) << px_a_frame;
+      for (size_t k = 0; k < video.size(); ++k) EXPECT_TRUE(Same(run.frames[k].frame, video[k])) << k;
+    }
+  }
+  // Turbulence as strong as it comes moves every px too, but to and fro.
+  std::vector<cv::Mat> strong;
+  for (uint32_t k = 0; k < 24; ++k)
+    SeenFrame({.size = {160, 120}, .tilt_rms_px = 3, .frame = k})
+        .convertTo(strong.emplace_back(), CV_8U, 255);
+  EXPECT_TRUE(RunOn(strong).plan.stack);
+}
+
+TEST(PlanRestore, NamesTheFrameWhereAnotherSceneBegins) {
+  VideoFacts facts{.size = {100, 80}, .type = CV_8UC1, .frames = 30, .shifts = std::vector<FrameShift>(30)};
+  for (size_t k = 20; k < 30; ++k) facts.shifts[k].match = Match::kLost;
+  try {
+    PlanRestore(facts, {});
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()).find("frames 20 to 29 show another scene than those before"), 0u);
+  }
+  EXPECT_NO_THROW(PlanRestore(facts, {.stabilise = false}));
 }
 
 TEST(LookAt, KnowsColourFromGreyInAnyDepth) {
