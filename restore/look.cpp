@@ -32,8 +32,12 @@ bool SameBits(const cv::Mat& a, const cv::Mat& b) {
 
 }  // namespace
 
-VideoFacts LookAt(Frames& video, const StabiliseParams& params, const std::function<void()>& step) {
-  VideoFacts facts{.frames = video.count(), .grey = true, .alike = true};
+VideoFacts LookAt(Frames& video, const StabiliseParams& params, const std::function<void()>& step,
+                  const Changing& changing) {
+  VideoFacts facts{.frames = video.count(),
+                   .grey = changing.first.empty() || IsGrey(changing.first),
+                   .alike = true,
+                   .changing = changing};
   Stabiliser stabiliser(params);
   const auto take = [&](std::vector<FrameShift> known) {
     facts.shifts.insert(facts.shifts.end(), known.begin(), known.end());

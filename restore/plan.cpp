@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "restore/flow.h"
+
 namespace shimmer::restore {
 namespace {
 
@@ -22,6 +24,16 @@ double MostShift_px(const VideoFacts& facts) {
   return most_px;
 }
 
+void RequireNoCut(const VideoFacts& facts) {
+  const std::optional<size_t> cut = LastingCut(facts.shifts);
+  if (!cut) return;
+  const std::string at = std::to_string(*cut);
+  throw std::invalid_argument("frames " + at + " to " + std::to_string(facts.frames - 1) +
+                              " show another scene than those before, or the camera went too far: must be "
+                              "one scene. Split the video before frame " +
+                              at + ", or take it as it is without stabilising (--no-stabilise)");
+}
+
 void PlanSteadying(const VideoFacts& facts, const RestoreParams& params, RestorePlan& plan) {
   if (!params.stabilise || IsSteady(facts.shifts)) {
     plan.skipped.push_back(params.stabilise
@@ -34,24 +46,64 @@ void PlanSteadying(const VideoFacts& facts, const RestoreParams& params, Restore
   plan.fill = params.border == Border::kFill;
   if (plan.fill) return;
   plan.area = CommonArea(facts.shifts, facts.size);
+  if (!plan.area.empty()) plan.area += plan.picture.tl();
   if (plan.area.empty())
     throw std::invalid_argument("border = crop leaves nothing: no px is on all frames, shifts reach " +
                                 Px(MostShift_px(facts)) + ". Must be fill, or a shorter part of the video");
 }
 
+void PlanPicture(const VideoFacts& facts, RestorePlan& plan) {
+  const Changing& changing = facts.changing;
+  const bool bars = !changing.first.empty();
+  plan.size = bars ? changing.first.size() : facts.size;
+  plan.picture = bars ? changing.area : cv::Rect({}, facts.size);
+  plan.area = cv::Rect({}, plan.size);
+  if (!bars) return;
+  char line[160];
+  std::snprintf(line, sizeof line,
+                "bars around the picture: they never change, %.2f %% of the frame; %dx%d px from (%d, %d) do",
+                100 - 100.0 * plan.picture.area() / plan.size.area(), plan.picture.width, plan.picture.height,
+                plan.picture.x, plan.picture.y);
+  plan.skipped.emplace_back(line);
+}
+
 // Below it the tilt is less than what the averaging of frames itself makes softer.
 constexpr double kLeastTilt_px = 0.05;
+constexpr double kMostMoving = 0.5;  // share of the picture
+// Air whose tilt is v along each axis moves a px by 1.77 v between two frames, on average. And
+// StrengthEstimate finds no more than 3.1 px in clips of Shimmer's of 4.9 px.
+constexpr double kMostOfTilt = 2, kLeastMotion_px = 2.5, kMostTilt_px = 6;
+
+// How most of the picture moves, other than by turbulence; nothing where it does not.
+std::string MotionEverywhere(const SceneFacts& scene, cv::Size size) {
+  if (scene.segment.method == SegmentMethod::kFused && scene.moving_share > kMostMoving)
+    return "more than half of the picture moves";
+  const double scale = std::max(size.width, size.height) > kLargeSide_px ? 2 : 1;
+  const double motion_px = scale * scene.segment.aof.typical_px,
+               tilt_px = std::sqrt(scene.strength.tilt_variance_px2);
+  const bool moves_on = motion_px > std::max(kLeastMotion_px, kMostOfTilt * tilt_px);
+  if (!moves_on && tilt_px <= kMostTilt_px) return {};
+  return "most of the picture moves on by more than turbulence does (" + Px(std::max(motion_px, tilt_px)) +
+         ")";
+}
 
 void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan& plan) {
   if (!params.stack || !facts.scene) {
     plan.skipped.push_back("segmenting, stacking and blending: they are switched off");
     return;
   }
+  const std::string all = "segmenting, stacking and blending: ";
+  if (const std::string motion = MotionEverywhere(*facts.scene, facts.size); !motion.empty()) {
+    plan.skipped.push_back(all + motion + ": there is no still scene");
+    return;
+  }
+  if (facts.scene->strength.texture == 0) {
+    plan.skipped.push_back(all + "no still scene with texture is found to tell the turbulence by");
+    return;
+  }
   const double tilt_px = std::sqrt(facts.scene->strength.tilt_variance_px2);
   if (tilt_px < kLeastTilt_px) {
-    plan.skipped.push_back(
-        "segmenting, stacking and blending: the turbulence is too weak to need them (a tilt of " +
-        Px(tilt_px) + ")");
+    plan.skipped.push_back(all + "the turbulence is too weak to need them (a tilt of " + Px(tilt_px) + ")");
     return;
   }
   const BackgroundParams background = BackgroundFor(facts.scene->strength, params.registered);
@@ -66,17 +118,31 @@ void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan
 
 }  // namespace
 
+bool HasOneScene(const VideoFacts& facts, const RestoreParams& params) {
+  return !facts.alike && (!params.stabilise || (AreOfOneScene(facts.shifts) && !LastingCut(facts.shifts)));
+}
+
 RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params) {
-  RestorePlan plan{.size = facts.size,
+  RestorePlan plan{.size = {},
                    .frames = facts.frames,
                    .grey = facts.grey,
                    .alike = facts.alike,
-                   .area = cv::Rect({}, facts.size)};
+                   .picture = {},
+                   .area = {}};
+  PlanPicture(facts, plan);
   const auto skip = [&](const std::string& line) { plan.skipped.push_back(line); };
   if (plan.grey && CV_MAT_CN(facts.type) == 3) skip("two of three channels: they are equal everywhere");
   if (plan.alike) {
     skip(facts.frames == 1 ? "everything: there is one frame, and nothing to compare it with"
                            : "everything: all frames are the same");
+    return plan;
+  }
+  if (params.stabilise) RequireNoCut(facts);
+  if (!HasOneScene(facts, params)) {
+    const auto lost = std::ranges::count(facts.shifts, Match::kLost, &FrameShift::match);
+    skip("everything: " + std::to_string(lost) +
+         " frames show something else than those before, as the "
+         "camera goes too far, or everything moves");
     return plan;
   }
   PlanSteadying(facts, params, plan);

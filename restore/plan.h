@@ -30,18 +30,24 @@ struct RestorePlan {
   bool grey = false;   // one channel is restored
   bool alike = false;  // nothing changes: every result is the first frame
   bool stabilise = false;
-  bool fill = false;        // what a moved frame does not see is taken from its neighbours
-  cv::Rect area;            // of the steady frame that is put out
-  bool segment = false;     // what moves is found, left out of the background and laid back into it
-  bool stack = false;       // each frame's background is the mean of those around it
-  int ahead = 0;            // of them on either side
-  bool registered = false;  // to one another before that
+  bool fill = false;     // what a moved frame does not see is taken from its neighbours
+  cv::Rect picture;      // what of the frames is restored: all, or what is inside of bars that never change
+  cv::Rect area;         // of the steady frame that is put out: without its bars where it is cropped
+  bool segment = false;  // what moves is found, left out of the background and laid back into it
+  bool stack = false;    // each frame's background is the mean of those around it
+  int ahead = 0;         // of them on either side
+  bool registered = false;                // to one another before that
   std::vector<std::string> skipped = {};  // a line for each stage that is left out, and why
 
   friend bool operator==(const RestorePlan&, const RestorePlan&) = default;
 };
 
-// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see.
+// Whether there is a still scene to look at (LookAtScene): not where nothing changes, and not where a camera
+// that is to be followed shows no one scene.
+bool HasOneScene(const VideoFacts& facts, const RestoreParams& params);
+
+// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see, and for a video that
+// goes over to another scene (LastingCut), unless its camera is taken to have stood.
 RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params);
 
 }  // namespace shimmer::restore

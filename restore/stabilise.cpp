@@ -22,6 +22,8 @@ constexpr double kFlatContrast = 2e-4, kLeastContrast = 2e-3;
 // below chance.
 constexpr double kLeastCorrelation = 0.12, kLeastEvidence = 1.8;  // evidence: correlation * clearness
 
+constexpr int kLeastScene = 8;  // frames
+
 double RangeOf(const cv::Mat& grey, int depth) {
   if (depth == CV_8U) return 255;
   if (depth == CV_16U) return 65535;
@@ -143,6 +145,24 @@ bool IsSteady(std::span<const FrameShift> shifts) {
   return std::all_of(shifts.begin(), shifts.end(), [](const FrameShift& shift) {
     return std::abs(shift.px.x) < 0.5 && std::abs(shift.px.y) < 0.5;
   });
+}
+
+bool AreOfOneScene(std::span<const FrameShift> shifts) {
+  const auto count = [&](Match match) { return std::ranges::count(shifts, match, &FrameShift::match); };
+  return count(Match::kFound) >= count(Match::kLost);
+}
+
+std::optional<size_t> LastingCut(std::span<const FrameShift> shifts) {
+  size_t cut = shifts.size();  // the first frame after the last that was found
+  while (cut > 0 && shifts[cut - 1].match != Match::kFound) --cut;
+  const auto count = [](std::span<const FrameShift> of, Match match) {
+    return std::ranges::count(of, match, &FrameShift::match);
+  };
+  if (count(shifts.first(cut), Match::kFound) < kLeastScene ||
+      count(shifts.subspan(cut), Match::kLost) < kLeastScene)
+    return {};
+  while (shifts[cut].match != Match::kLost) ++cut;  // (past the black between two scenes)
+  return cut;
 }
 
 cv::Rect CommonArea(std::span<const FrameShift> shifts, cv::Size size) {

@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,14 @@ class Stabiliser {
 // Whether the camera stood: no s is half a px or more along an axis. To move such frames would move none of
 // them by a px, and cost them sharpness.
 bool IsSteady(std::span<const FrameShift> shifts);
+
+// Whether at least half of the frames that show anything were found: else they are of no one scene, since the
+// camera goes too far, or everything moves.
+bool AreOfOneScene(std::span<const FrameShift> shifts);
+
+// The first of the frames at the end of which none shows what those before show: 8 or more, and 8 or more
+// that were found before. Nothing where there is no such cut.
+std::optional<size_t> LastingCut(std::span<const FrameShift> shifts);
 
 // What is on all frames of that size, in px of the steady frame: a crop to it shows no border. Empty if
 // there is no such px.

@@ -1,11 +1,13 @@
 #include "restore/stages.h"
 
 #include <deque>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "restore/background.h"
 #include "restore/blend.h"
 #include "restore/border_fill.h"
+#include "restore/levels.h"
 #include "restore/segment.h"
 #include "restore/translate.h"
 
@@ -57,6 +59,28 @@ class Cut : public Stage {
 
  private:
   cv::Rect area_;
+};
+
+// The bars that never change around it again, as they are in the first frame.
+class PutBack : public Stage {
+ public:
+  PutBack(const cv::Mat& first, cv::Rect picture) : first_(first), picture_(picture) {}
+
+  std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    cv::Mat whole;
+    if (frame.frame.channels() < first_.channels())
+      cv::extractChannel(first_, whole, 0);
+    else
+      whole = first_.clone();
+    frame.frame.copyTo(whole(picture_));
+    frame.frame = whole;
+    return {frame};
+  }
+  std::vector<FrameOnWay> Rest() override { return {}; }
+
+ private:
+  cv::Mat first_;
+  cv::Rect picture_;
 };
 
 // The same, and what it does not see filled from its neighbours.
@@ -140,11 +164,25 @@ class Segment : public Stage {
   Waiting waiting_;
 };
 
+// The still scene that the look at the video has found, as a frame of that size and type. Empty where it
+// found none (kAof).
+cv::Mat PictureOf(const StillScene& scene, cv::Size size, int type) {
+  if (scene.picture.empty()) return {};
+  cv::Mat large, picture;
+  cv::resize(scene.picture, large, size, 0, 0, cv::INTER_LINEAR);
+  large.convertTo(picture, CV_MAT_DEPTH(type), WhiteOf(CV_MAT_DEPTH(type)) / 255);
+  return picture;
+}
+
+// scene: what lies behind a px that is hidden from the first frame on.
 class Stack : public Stage {
  public:
-  explicit Stack(const BackgroundParams& params) : background_(params) {}
+  Stack(const BackgroundParams& params, const StillScene& scene) : background_(params), scene_(scene) {}
 
   std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    if (frame.index == 0)
+      if (const cv::Mat picture = PictureOf(scene_, frame.frame.size(), frame.frame.type()); !picture.empty())
+        background_.StartFrom(picture);
     waiting_.Add(frame);
     return WithBackground(background_.Next({frame.frame, frame.own}, frame.mask));
   }
@@ -164,6 +202,7 @@ class Stack : public Stage {
   }
 
   Background background_;
+  const StillScene& scene_;
   Waiting waiting_;
 };
 
@@ -189,11 +228,14 @@ std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const Vide
   stages.push_back(std::make_unique<Keep>());
   if (plan.segment) stages.push_back(std::make_unique<Segment>(facts.scene->segment));
   if (plan.stack) {
-    stages.push_back(
-        std::make_unique<Stack>(BackgroundParams{.ahead = plan.ahead, .registered = plan.registered}));
+    stages.push_back(std::make_unique<Stack>(
+        BackgroundParams{.ahead = plan.ahead, .registered = plan.registered}, facts.scene->segment.scene));
     stages.push_back(std::make_unique<Blend>());
   }
-  if (plan.area.size() != plan.size) stages.push_back(std::make_unique<Cut>(plan.area));
+  if (plan.area.size() != plan.size)
+    stages.push_back(std::make_unique<Cut>(plan.area - plan.picture.tl()));
+  else if (plan.picture.size() != plan.size)
+    stages.push_back(std::make_unique<PutBack>(facts.changing.first, plan.picture));
   return stages;
 }
 

@@ -68,6 +68,7 @@ int RunUnshimmer(int argc, const char* const* argv, const std::atomic<bool>& (*l
             {"auto", Register::kAuto}, {"on", Register::kOn}, {"off", Register::kOff}}));
     command.add_flag("!--no-segment", restore.params.segment, "take it that nothing moves");
     command.add_flag("!--no-stack", restore.params.stack, "leave the turbulence as it is: stabilise alone");
+    AddOpticsOptions(command, restore.optics);
     command.add_option("--threads", restore.threads, "number of threads (default: all)")
         ->check(CLI::Range(1, 4096));
     command.add_flag("--quiet", restore.quiet, "no progress");

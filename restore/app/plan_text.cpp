@@ -46,6 +46,25 @@ std::string ShakeText(const VideoFacts& facts) {
   return text;
 }
 
+// A steadied video has lost what is common to a whole frame, of the air too.
+std::string Cn2Text(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics) {
+  const std::string name = "Cn2       ";
+  if (!facts.scene) {
+    if (!optics) return "";
+    return name + "not found: " + (facts.alike ? "nothing changes" : "there is no still scene") + "\n";
+  }
+  const TurbulenceStrength& strength = facts.scene->strength;
+  if (strength.texture == 0) return name + "not found: there is no texture to tell it by\n";
+  const std::string at_least = plan.stabilise ? "at least " : "";
+  char number[64];
+  if (optics) {
+    std::snprintf(number, sizeof number, "%.3g m^(-2/3)\n", Cn2Of(strength.tilt_variance_px2, *optics));
+    return name + at_least + number;
+  }
+  std::snprintf(number, sizeof number, "%.3g px^2", strength.tilt_variance_px2);
+  return name + "proportional to " + at_least + number + ", the tilt's variance (no optics are given)\n";
+}
+
 // How strong the air is, and how much moves.
 std::string SceneText(const SceneFacts& scene) {
   std::string text = "tilt      " + Decimals(std::sqrt(scene.strength.tilt_variance_px2)) +
@@ -56,9 +75,9 @@ std::string SceneText(const SceneFacts& scene) {
 
 }  // namespace
 
-std::string PlanText(const VideoFacts& facts, const RestorePlan& plan) {
-  std::string text = "frames    " + cli::Grouped(facts.frames) + " of " + std::to_string(facts.size.width) +
-                     "x" + std::to_string(facts.size.height) + " px, " + KindText(facts.type) + "\n" +
+std::string PlanText(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics) {
+  std::string text = "frames    " + cli::Grouped(facts.frames) + " of " + std::to_string(plan.size.width) +
+                     "x" + std::to_string(plan.size.height) + " px, " + KindText(facts.type) + "\n" +
                      ShakeText(facts);
   std::string stages;
   if (plan.stabilise) stages += plan.fill ? ", stabilise and fill" : ", stabilise and crop";
@@ -67,6 +86,7 @@ std::string PlanText(const VideoFacts& facts, const RestorePlan& plan) {
     stages += ", stack " + cli::Counted(2 * plan.ahead + 1, "frame") +
               (plan.registered ? " registered" : "") + (plan.segment ? ", blend" : "");
   if (facts.scene) text += SceneText(*facts.scene);
+  text += Cn2Text(facts, plan, optics);
   text += "stages    " + (stages.empty() ? "none" : stages.substr(2)) + "\n";
   if (plan.area.size() != plan.size)
     text += "area      " + std::to_string(plan.area.width) + "x" + std::to_string(plan.area.height) +
@@ -87,6 +107,7 @@ Json PlanJson(const VideoFacts& facts, const RestorePlan& plan) {
           {"grey", plan.grey},
           {"stabilise", plan.stabilise},
           {"fill", plan.fill},
+          {"picture", {plan.picture.x, plan.picture.y, plan.picture.width, plan.picture.height}},
           {"area", {plan.area.x, plan.area.y, plan.area.width, plan.area.height}},
           {"segment", plan.segment},
           {"stack", plan.stack},

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "restore/plan.h"
+#include "restore/turbulence_strength.h"
 
 namespace shimmer::restore::app {
 
-std::string PlanText(const VideoFacts& facts, const RestorePlan& plan);
+// optics: with them Cn2 is given, without them what it is proportional to.
+std::string PlanText(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics);
 
 // {"size", "frames", "grey", "stabilise", "fill", "area", "skipped", "shifts_px": [[x, y], ...], ...}.
 nlohmann::ordered_json PlanJson(const VideoFacts& facts, const RestorePlan& plan);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "cli/command_line.h"
+#include "cli/error_line.h"
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
 #include "restore/app/frame_sink.h"
@@ -55,14 +56,22 @@ class Threads {
   tbb::global_control control_;
 };
 
-VideoFacts Look(const RestoreOptions& options, const FlowMaker& flow, Frames& video) {
+Changing Compare(const RestoreOptions& options, Frames& video) {
+  cli::Progress progress("frames compared", video.count(), 0, options.quiet);
+  return FindChanging(video, [&] { progress.Step(); });
+}
+
+// video: the inside of what changes.
+VideoFacts Look(const RestoreOptions& options, const std::optional<Optics>& optics, const Changing& changing,
+                const FlowMaker& flow, Frames& video) {
   const RestoreParams& params = options.params;
   VideoFacts facts;
   {
     cli::Progress progress("frames looked at", video.count(), 0, options.quiet);
-    facts = LookAt(video, params.shake, [&] { progress.Step(); });
+    facts = LookAt(
+        video, params.shake, [&] { progress.Step(); }, changing);
   }
-  if (facts.alike || !params.stack) return facts;
+  if (!HasOneScene(facts, params) || !(params.stack || optics)) return facts;
   cli::Progress progress("places looked at", ReadsOfLook(facts.frames), 0, options.quiet);
   const bool moved = params.stabilise && !IsSteady(facts.shifts);
   facts.scene = LookAtScene(video, moved ? facts.shifts : std::vector<FrameShift>(), facts.grey,
@@ -70,13 +79,16 @@ VideoFacts Look(const RestoreOptions& options, const FlowMaker& flow, Frames& vi
   return facts;
 }
 
-void Run(const RestoreOptions& options, dataset::FrameReader& reader, const std::atomic<bool>& stop) {
-  FileFrames video(reader, stop);
+void Run(const RestoreOptions& options, const std::optional<Optics>& optics, dataset::FrameReader& reader,
+         const std::atomic<bool>& stop) {
+  FileFrames file(reader, stop);
   const double frames_per_s = options.frames_per_s.value_or(reader.frames_per_s().value_or(kFramesPerS));
   const std::unique_ptr<FrameSink> out = OpenSink(options.out, frames_per_s);
   const std::unique_ptr<StageFiles> stages =
       options.stages.empty() ? nullptr : std::make_unique<StageFiles>(options.stages);
-  const VideoFacts facts = Look(options, FlowOf(options), video);
+  const Changing changing = Compare(options, file);
+  Inside video(file, changing.area);
+  const VideoFacts facts = Look(options, optics, changing, FlowOf(options), video);
   const RestorePlan plan = PlanRestore(facts, options.params);
   cli::Progress progress("frames restored", facts.frames, 0, options.quiet);
   Restore(video, facts, plan, [&](const FrameOnWay& frame) {
@@ -85,17 +97,27 @@ void Run(const RestoreOptions& options, dataset::FrameReader& reader, const std:
     progress.Step();
   });
   progress.End();
-  if (stages) stages->Finish(facts, plan);
+  if (stages) stages->Finish(facts, plan, optics);
   out->Finish();
+}
+
+// Says what is odd about a video that can be used all the same: one that was cut off, for instance.
+std::unique_ptr<dataset::FrameReader> Opened(const RestoreOptions& options, const std::atomic<bool>& stop) {
+  auto reader = OpenFrames(options.video, stop);
+  reader->count();
+  if (const std::string remark = reader->remark(); !remark.empty())
+    cli::PrintError("unshimmer", options.video.string() + ": " + remark);
+  return reader;
 }
 
 }  // namespace
 
 int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop) {
+  const std::optional<Optics> optics = OpticsOf(options.optics);
   const Threads threads(options.threads);
   try {
-    const auto reader = OpenFrames(options.video, stop);
-    Run(options, *reader, stop);
+    const auto reader = Opened(options, stop);
+    Run(options, optics, *reader, stop);
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;
   }
@@ -103,12 +125,15 @@ int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop) {
 }
 
 int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop) {
+  const std::optional<Optics> optics = OpticsOf(options.optics);
   const Threads threads(options.threads);
   try {
-    const auto reader = OpenFrames(options.video, stop);
-    FileFrames video(*reader, stop);
-    const VideoFacts facts = Look(options, FlowOf(options), video);
-    cli::Print(PlanText(facts, PlanRestore(facts, options.params)));
+    const auto reader = Opened(options, stop);
+    FileFrames file(*reader, stop);
+    const Changing changing = Compare(options, file);
+    Inside video(file, changing.area);
+    const VideoFacts facts = Look(options, optics, changing, FlowOf(options), video);
+    cli::Print(PlanText(facts, PlanRestore(facts, options.params), optics));
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "restore/app/optics_options.h"
 #include "restore/plan.h"
 
 namespace shimmer::restore::app {
@@ -13,13 +14,15 @@ namespace shimmer::restore::app {
 struct RestoreOptions {
   std::filesystem::path video, out, stages;  // stages may be empty: not wanted
   RestoreParams params;
-  std::string flow = "dis";            // or the file of a network
+  std::string flow = "dis";  // or the file of a network
+  OpticsOptions optics;
   std::optional<double> frames_per_s;  // of a video that is written
   int threads = 0;                     // 0: all
   bool quiet = false;
 };
 
-// Both return the exit code, and throw as OpenFrames, TorchFlows, LookAt, PlanRestore and OpenSink do.
+// Both return the exit code, and throw as OpticsOf, OpenFrames, TorchFlows, LookAt, PlanRestore and OpenSink
+// do.
 int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop);
 int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop);
 

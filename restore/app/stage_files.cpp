@@ -3,7 +3,9 @@
 #include <stdexcept>
 
 #include "restore/app/plan_text.h"
+#include "restore/app/strength_map.h"
 #include "sim/dataset/files.h"
+#include "sim/dataset/image_io.h"
 
 namespace shimmer::restore::app {
 
@@ -28,11 +30,19 @@ void StageFiles::Add(const FrameOnWay& frame) {
   AddTo("background", frame.background);
 }
 
-void StageFiles::Finish(const VideoFacts& facts, const RestorePlan& plan) {
+void StageFiles::Finish(const VideoFacts& facts, const RestorePlan& plan,
+                        const std::optional<Optics>& optics) {
   for (auto& [name, sink] : sinks_) sink->Finish();
   dataset::MakeFolders(folder_);
   const std::string text = PlanJson(facts, plan).dump(2) + "\n";
   dataset::WriteFileAtomically(folder_ / "plan.json", dataset::AsBytes(text));
+  if (!facts.scene) return;
+  const TurbulenceStrength& strength = facts.scene->strength;
+  const std::string strength_text = StrengthJson(strength, optics, plan).dump(2) + "\n";
+  dataset::WriteFileAtomically(folder_ / "strength.json", dataset::AsBytes(strength_text));
+  dataset::WriteFileAtomically(folder_ / "strength.exr", StrengthExr(strength, optics));
+  dataset::WriteFileAtomically(folder_ / "strength.png",
+                               dataset::EncodePng(StrengthPicture(strength, optics), 8));
 }
 
 }  // namespace shimmer::restore::app

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "restore/app/frame_sink.h"
@@ -12,15 +13,15 @@
 
 namespace shimmer::restore::app {
 
-// FOLDER/stabilised/0000.png, own/0000.png and so on, for those stages that the plan has; and
-// FOLDER/plan.json.
+// FOLDER/stabilised/0000.png, own/0000.png and so on, for those stages that the plan has; FOLDER/plan.json;
+// and, where the turbulence was measured, FOLDER/strength.json, .exr and .png (strength_map.h).
 class StageFiles {
  public:
   // Throws std::invalid_argument where the folder is there, and not empty.
   explicit StageFiles(std::filesystem::path folder);
 
   void Add(const FrameOnWay& frame);
-  void Finish(const VideoFacts& facts, const RestorePlan& plan);
+  void Finish(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics);
 
  private:
   void AddTo(const std::string& name, const cv::Mat& picture);

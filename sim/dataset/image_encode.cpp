@@ -60,6 +60,12 @@ bool ZipsHelps(const cv::Mat& samples, std::span<const std::string> channels) {
   return WriteExr(rows, channels, "zips").size() < 0.9 * WriteExr(rows, channels, "none").size();
 }
 
+void RequireNames(const cv::Mat& image, std::span<const std::string> channels) {
+  if (image.channels() != static_cast<int>(channels.size()))
+    throw std::invalid_argument("an EXR of " + std::to_string(image.channels()) + " channels with " +
+                                std::to_string(channels.size()) + " names");
+}
+
 }  // namespace
 
 const char* Extension(FileFormat format) { return format == FileFormat::kPng ? "png" : "exr"; }
@@ -77,12 +83,17 @@ std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits, PngWriter writer)
 }
 
 std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const std::string> channels) {
-  if (image.channels() != static_cast<int>(channels.size()))
-    throw std::invalid_argument("an EXR of " + std::to_string(image.channels()) + " channels with " +
-                                std::to_string(channels.size()) + " names");
+  RequireNames(image, channels);
   const cv::Mat samples = ToSamples(image, {FileFormat::kExr, bits});
   if (bits == 32 && !ZipsHelps(samples, channels)) return WriteExr(samples, channels, "none");
   return WriteExr(samples, channels, "zips");
+}
+
+std::vector<uint8_t> EncodeExrAsIs(const cv::Mat& image, std::span<const std::string> channels) {
+  RequireNames(image, channels);
+  if (image.empty() || image.depth() != CV_32F)
+    throw std::invalid_argument("an EXR of numbers as they are must be float32, and not empty");
+  return WriteExr(image, channels, "zips");
 }
 
 std::vector<uint8_t> EncodeJpeg(const cv::Mat& image, int quality, JpegColour colour) {

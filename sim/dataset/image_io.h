@@ -97,6 +97,9 @@ cv::Mat Quantise(const cv::Mat& image, Encoding encoding);
 std::vector<uint8_t> EncodePng(const cv::Mat& image, int bits, PngWriter writer = PngWriter::kIsal);
 std::vector<uint8_t> EncodeExr(const cv::Mat& image, int bits, std::span<const std::string> channels);
 
+// Of 32 bits, and with every number as it is: for maps in which NaN says that nothing is known.
+std::vector<uint8_t> EncodeExrAsIs(const cv::Mat& image, std::span<const std::string> channels);
+
 // A frame: PNG, or EXR with the channels Y or R, G, B.
 std::vector<uint8_t> EncodeImage(const cv::Mat& image, Encoding encoding);
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <random>
 
 #include "restore/levels.h"
@@ -23,6 +24,13 @@ inline cv::Mat Noise(cv::Size size, int type, uint32_t seed) {
     for (int i = 0; i < size.width * noise.channels(); ++i) noise.ptr<double>(y)[i] = sample(generator);
   noise.convertTo(frame, CV_MAT_DEPTH(type));
   return frame;
+}
+
+// Blots of some 8 px, CV_8UC1: no part of it looks like another.
+inline cv::Mat Blots(cv::Size size, uint32_t seed) {
+  cv::Mat blots;
+  cv::resize(Noise(size / 8, CV_8UC1, seed), blots, size, 0, 0, cv::INTER_CUBIC);
+  return blots;
 }
 
 // A sample in levels.

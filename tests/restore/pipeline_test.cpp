@@ -9,20 +9,11 @@
 #include "restore/border_fill.h"
 #include "restore/translate.h"
 #include "tests/restore/frames.h"
+#include "tests/restore/memory_frames.h"
 #include "tests/restore/wave_scene.h"
 
 namespace shimmer::restore {
 namespace {
-
-class MemoryFrames : public Frames {
- public:
-  explicit MemoryFrames(std::vector<cv::Mat> frames) : frames_(std::move(frames)) {}
-  int64_t count() override { return std::ssize(frames_); }
-  cv::Mat Read(int64_t frame) override { return frames_.at(static_cast<size_t>(frame)); }
-
- private:
-  std::vector<cv::Mat> frames_;
-};
 
 bool Same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
@@ -47,12 +38,15 @@ struct Outcome {
 };
 
 Outcome RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {}) {
-  MemoryFrames frames(video);
+  MemoryFrames all(video);
+  const Changing changing = FindChanging(all, [] {});
+  Inside frames(all, changing.area);
   Outcome run;
   int64_t looked_at = 0;
-  run.facts = LookAt(frames, params.shake, [&] { ++looked_at; });
+  run.facts = LookAt(
+      frames, params.shake, [&] { ++looked_at; }, changing);
   EXPECT_EQ(looked_at, frames.count());
-  if (params.stack && !run.facts.alike) {
+  if (params.stack && HasOneScene(run.facts, params)) {
     const bool moved = params.stabilise && !IsSteady(run.facts.shifts);
     int64_t reads = 0;
     run.facts.scene = LookAtScene(frames, moved ? run.facts.shifts : std::vector<FrameShift>(),
@@ -137,6 +131,44 @@ TEST(Restore, LeavesAloneWhatNeedsNothing) {
   EXPECT_FALSE(RunOn(Shaken(6), {.stabilise = false}).plan.stabilise);
 }
 
+// Bars around it stay as they are, bit by bit, and inside is what comes of the picture alone.
+TEST(Restore, PutsBackTheBarsAroundAPicture) {
+  const cv::Rect inside(0, 20, 160, 90);
+  for (const int channels : {1, 3})
+    for (const double most_px : {0.0, 9.0}) {
+      std::vector<cv::Mat> pictures, video;
+      for (int k = 0; k < 20; ++k) {
+        cv::Mat picture;
+        SeenFrame({.size = inside.size(),
+                   .shift = WanderingShift(k, most_px),
+                   .tilt_rms_px = 0.5,
+                   .frame = static_cast<uint32_t>(k)})
+            .convertTo(picture, CV_8U, 255);
+        if (channels == 3) cv::merge(std::vector{picture, picture, picture}, picture);
+        pictures.push_back(picture);
+        video.push_back(cv::Mat(130, 160, picture.type(), cv::Scalar::all(16)));
+        video.back()(cv::Rect(5, 115, 30, 9)).setTo(cv::Scalar(30, 30, channels == 3 ? 200 : 0));
+        picture.copyTo(video.back()(inside));
+      }
+      const Outcome alone = RunOn(pictures), run = RunOn(video);
+      EXPECT_EQ(run.plan.size, cv::Size(160, 130));
+      EXPECT_EQ(run.plan.picture, inside);
+      EXPECT_EQ(run.plan.stabilise, most_px > 0);
+      EXPECT_TRUE(run.plan.stack);
+      EXPECT_TRUE(Skips(run.plan, "bars around the picture: they never change, 30.77 % of the frame"));
+      for (size_t k = 0; k < video.size(); ++k) {
+        cv::Mat expected = video[0].clone(), picture = alone.frames[k].frame;
+        if (channels == 3) cv::merge(std::vector{picture, picture, picture}, picture);  // (grey is one)
+        picture.copyTo(expected(inside));
+        EXPECT_TRUE(Same(run.frames[k].frame, expected)) << k;
+      }
+      if (most_px == 0) continue;
+      const Outcome cropped = RunOn(video, {.border = Border::kCrop});
+      EXPECT_EQ(cropped.plan.area, RunOn(pictures, {.border = Border::kCrop}).plan.area + inside.tl());
+      EXPECT_EQ(cropped.frames[3].frame.size(), cropped.plan.area.size());
+    }
+}
+
 // The whole of it: a shaken scene in strong air, a box that crosses it.
 TEST(Restore, MakesATurbulentSceneClearAndKeepsWhatMoves) {
   constexpr int kFrames = 40;
@@ -178,6 +210,74 @@ TEST(Restore, MakesATurbulentSceneClearAndKeepsWhatMoves) {
   // Of 255: the box keeps its gradients (51 levels of texture); the membrane brings what the air does around
   // its mask, a px over the scene's slopes: 10 levels or so.
   EXPECT_LT(kept / (kFrames - 8), 15);
+}
+
+// Something that stands where it is for as long as the first frame's window is, and then drives off: what
+// lies behind it is there from frame 0 on, as the look at the video found it.
+TEST(Restore, KnowsWhatLiesBehindWhatStoodAtFirst) {
+  const cv::Size size(200, 150);
+  std::vector<cv::Mat> video;
+  const auto box_in = [](int k) { return cv::Rect(40 + std::max(0, 9 * (k - 18)), 60, 36, 28); };
+  for (int k = 0; k < 80; ++k) {
+    cv::Mat frame = SeenFrame({.size = size,
+                               .tilt_rms_px = 1,
+                               .frame = static_cast<uint32_t>(k),
+                               .box = box_in(k),
+                               .box_in_air = true});
+    if (const cv::Rect box = box_in(k) & cv::Rect({}, size); !box.empty()) frame(box) -= 0.3;  // dark
+    frame.convertTo(video.emplace_back(), CV_8U, 255);
+  }
+  cv::Mat clean;
+  SeenFrame({.size = size}).convertTo(clean, CV_8U, 255);
+  const Outcome run = RunOn(video);
+  ASSERT_TRUE(run.plan.stack && run.plan.segment);
+  // Its inner px: what the mask may leave of its rim is another matter.
+  const cv::Rect inner(box_in(0).x + 4, box_in(0).y + 4, 28, 20);
+  const auto off = [&](const cv::Mat& frame) {
+    return cv::norm(frame(inner), clean(inner), cv::NORM_L1) / inner.area();
+  };
+  EXPECT_GT(off(video[0]), 60);  // the box itself
+  // (7 % of it look like the scene and are in no mask: they are what is left, most of it)
+  for (const size_t k : {0u, 1u, 10u, 20u, 40u, 79u}) EXPECT_LT(off(run.frames[k].background), 12) << k;
+  const FrameOnWay& first = run.frames[0];  // and it stands in front of it
+  EXPECT_LT(cv::norm(first.frame(inner), video[0](inner), cv::NORM_L1) / inner.area(), 15);
+}
+
+// Where everything moves, or the camera pans out of its first picture, no mean of frames is a scene: they are
+// put out as they are.
+TEST(Restore, LeavesAloneWhatMovesEverywhere) {
+  const cv::Mat scene = Blots({800, 120}, 5);
+  const std::pair<int, const char*> cases[] = {{20, "everything: "},
+                                               {2, "segmenting, stacking and blending: most of the picture"}};
+  for (const auto& [px_a_frame, why] : cases) {
+    std::vector<cv::Mat> video;
+    for (int k = 0; k < 30; ++k) video.push_back(scene({px_a_frame * k, 0, 160, 120}).clone());
+    // The slow one could be followed; not by a camera that is taken to stand.
+    for (const SegmentMethod method : {SegmentMethod::kFused, SegmentMethod::kAof}) {
+      const Outcome run = RunOn(video, {.stabilise = px_a_frame > 9, .method = method});
+      EXPECT_FALSE(run.plan.stabilise || run.plan.segment || run.plan.stack);
+      EXPECT_TRUE(Skips(run.plan, why)) << px_a_frame;
+      for (size_t k = 0; k < video.size(); ++k) EXPECT_TRUE(Same(run.frames[k].frame, video[k])) << k;
+    }
+  }
+  // Turbulence as strong as it comes moves every px too, but to and fro.
+  std::vector<cv::Mat> strong;
+  for (uint32_t k = 0; k < 24; ++k)
+    SeenFrame({.size = {160, 120}, .tilt_rms_px = 3, .frame = k})
+        .convertTo(strong.emplace_back(), CV_8U, 255);
+  EXPECT_TRUE(RunOn(strong).plan.stack);
+}
+
+TEST(PlanRestore, NamesTheFrameWhereAnotherSceneBegins) {
+  VideoFacts facts{.size = {100, 80}, .type = CV_8UC1, .frames = 30, .shifts = std::vector<FrameShift>(30)};
+  for (size_t k = 20; k < 30; ++k) facts.shifts[k].match = Match::kLost;
+  try {
+    PlanRestore(facts, {});
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()).find("frames 20 to 29 show another scene than those before"), 0u);
+  }
+  EXPECT_NO_THROW(PlanRestore(facts, {.stabilise = false}));
 }
 
 TEST(LookAt, KnowsColourFromGreyInAnyDepth) {

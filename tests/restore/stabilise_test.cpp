@@ -276,6 +276,31 @@ TEST(IsSteady, BelowHalfAPx) {
   })));
 }
 
+// A row of frames: found (+), lost (-), of one colour (o).
+std::vector<FrameShift> Matches(const std::string& row) {
+  std::vector<FrameShift> shifts;
+  for (const char kind : row)
+    shifts.push_back({.match = kind == '+' ? Match::kFound : kind == '-' ? Match::kLost : Match::kFlat});
+  return shifts;
+}
+
+TEST(AreOfOneScene, WhereHalfOfThemAreFound) {
+  EXPECT_TRUE(AreOfOneScene({}));
+  EXPECT_TRUE(AreOfOneScene(Matches("oooo")));
+  EXPECT_TRUE(AreOfOneScene(Matches("+-+-ooo")));
+  EXPECT_FALSE(AreOfOneScene(Matches("+-+--ooo")));
+}
+
+TEST(LastingCut, IsWhereAnotherSceneBegins) {
+  EXPECT_EQ(LastingCut(Matches("++++++++--------")), 8u);
+  EXPECT_EQ(LastingCut(Matches("++-+++++++ooo-------o-")), 13u);
+  EXPECT_FALSE(LastingCut(Matches("++++++++-------")));            // a short loss at the end
+  EXPECT_FALSE(LastingCut(Matches("+++++++--------")));            // hardly a scene before
+  EXPECT_FALSE(LastingCut(Matches("++++++++----------------+")));  // what hid the scene goes away again
+  EXPECT_FALSE(LastingCut(Matches("++++++++oooooooooo")));         // it fades
+  EXPECT_FALSE(LastingCut({}));
+}
+
 TEST(CommonArea, IsSeenByAll) {
   const std::vector<FrameShift> shifts = {{.px = {0, 0}}, {.px = {10, -3}}, {.px = {-2.5, 4.25}}};
   EXPECT_EQ(CommonArea(shifts, {100, 50}), cv::Rect(3, 3, 87, 42));

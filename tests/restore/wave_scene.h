@@ -45,8 +45,9 @@ struct View {
   double tilt_rms_px = 0;  // along each axis, wavelengths from 20 px to 70 px
   uint32_t frame = 0;      // another one: other air, other noise
   double gain = 1, offset = 0;
-  double noise = 0;   // root mean square, white
-  cv::Rect box = {};  // in the frame: another texture, which moves with the box
+  double noise = 0;         // root mean square, white
+  cv::Rect box = {};        // in the frame: another texture, which moves with the box
+  bool box_in_air = false;  // the air moves that texture too
 };
 
 // CV_32FC1 around 0.5, of root mean square 0.15 * gain.
@@ -59,9 +60,14 @@ inline cv::Mat SeenFrame(const View& view) {
     for (int y = rows.start; y < rows.end; ++y)
       for (int x = 0; x < view.size.width; ++x) {
         cv::Point2d at(x - view.shift.x, y - view.shift.y);
-        if (view.tilt_rms_px > 0) at += {air_x.At(x, y), air_y.At(x, y)};
+        cv::Point2d on(x - view.box.x, y - view.box.y);
+        if (view.tilt_rms_px > 0) {
+          const cv::Point2d tilt(air_x.At(x, y), air_y.At(x, y));
+          at += tilt;
+          if (view.box_in_air) on += tilt;
+        }
         const bool boxed = view.box.contains({x, y});
-        const double light = boxed ? on_box.At(x - view.box.x, y - view.box.y) : scene.At(at.x, at.y);
+        const double light = boxed ? on_box.At(on.x, on.y) : scene.At(at.x, at.y);
         frame.at<float>(y, x) = static_cast<float>(0.5 + view.offset + view.gain * light);
       }
   });

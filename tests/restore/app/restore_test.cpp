@@ -17,13 +17,6 @@ using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-Ran Restored(const TempFolder& folder, const std::string& video, const std::string& out,
-             const Words& more = {}) {
-  Words words = {"restore", video, "--out", out, "--quiet"};
-  words.insert(words.end(), more.begin(), more.end());
-  return Unshimmer(folder, words);
-}
-
 std::string NameOf(int k) { return std::string(1, 'f') + std::to_string(1000 + k) + ".png"; }
 
 // A camera that wanders by up to 6 px.
@@ -33,8 +26,6 @@ void PutShaken(const TempFolder& folder, const std::string& name, int frames, cv
     folder.Put(name + "/" + NameOf(k),
                dataset::EncodePng(SeenFrame({.size = size, .shift = WanderingShift(k, 6)}), bits));
 }
-
-cv::Mat FrameOf(const fs::path& path, int64_t k) { return OpenFrames(path)->Read(k).pixels; }
 
 TEST(RestoreVideo, WritesSteadyFramesOfTheirOwnBits) {
   for (const int bits : {8, 16}) {
