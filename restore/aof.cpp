@@ -29,6 +29,46 @@ cv::Mat Sureness(const cv::Mat& level) {
   return sure;
 }
 
+// The line through displacements over time that fits them best, pixel by pixel.
+class Line {
+ public:
+  explicit Line(cv::Size size)
+      : count_(size, CV_32FC1, cv::Scalar(1)),  // the frame itself, at 0
+        time_(cv::Mat::zeros(size, CV_32FC1)),
+        time2_(time_.clone()) {
+    for (Axis& axis : axes_) axis = {time_.clone(), time_.clone()};
+  }
+
+  // weight: CV_32FC1, 0 where it is not to be used.
+  void Add(int time, const std::vector<cv::Mat>& displacement, const cv::Mat& weight) {
+    count_ += weight;
+    time_ += weight * time;
+    time2_ += weight * (time * time);
+    for (size_t i = 0; i < 2; ++i) {
+      const cv::Mat weighted = displacement[i].mul(weight);
+      axes_[i].sum += weighted;
+      axes_[i].with_time += weighted * time;
+    }
+  }
+
+  cv::Mat Speed() const {
+    const cv::Mat spread = cv::max(count_.mul(time2_) - time_.mul(time_), 1);  // 0: without a neighbour
+    const auto slope = [&](const Axis& axis) {
+      return cv::Mat((count_.mul(axis.with_time) - time_.mul(axis.sum)) / spread);
+    };
+    cv::Mat speed;
+    cv::magnitude(slope(axes_[0]), slope(axes_[1]), speed);
+    return speed;
+  }
+
+ private:
+  struct Axis {
+    cv::Mat sum, with_time;
+  };
+  cv::Mat count_, time_, time2_;
+  Axis axes_[2];
+};
+
 }  // namespace
 
 cv::Mat OwnAtSize(const cv::Mat& own, cv::Size size) {
@@ -55,6 +95,10 @@ Place PlaceAt(int64_t k, const std::vector<SteadyFrame>& frames) {
 int NeighbourAt(int n) { return (n % 2 == 0 ? -2 : 2) << (n / 2); }
 
 std::vector<cv::Mat> AofOf(DenseFlow& flow, const Place& place, int most_neighbours) {
+  return MotionOf(flow, place, most_neighbours).aof;
+}
+
+Motion MotionOf(DenseFlow& flow, const Place& place, int most_neighbours) {
   const cv::Mat frame = HalvedIfLarge(place.current.frame), own = OwnAtSize(place.current.own, frame.size());
   const cv::Mat sure = Sureness(frame);
   std::vector<cv::Mat> others;
@@ -63,8 +107,14 @@ std::vector<cv::Mat> AofOf(DenseFlow& flow, const Place& place, int most_neighbo
       others.push_back(HalvedIfLarge(other));
   const std::vector<cv::Mat> flows = flow.Flows(frame, others);
   auto next = flows.begin();
+  Motion motion;
+  const auto finish = [&](cv::Mat mean) {
+    mean = mean.mul(sure);
+    mean.setTo(0, own == 0);
+    return mean;
+  };
   cv::Mat sum = cv::Mat::zeros(frame.size(), CV_32FC1), weights = sum.clone();
-  std::vector<cv::Mat> result;
+  Line line(frame.size());
   for (int n = 0; n < most_neighbours; ++n) {
     const SteadyFrame& neighbour = place.neighbours[static_cast<size_t>(n)];
     if (!neighbour.frame.empty()) {
@@ -74,14 +124,12 @@ std::vector<cv::Mat> AofOf(DenseFlow& flow, const Place& place, int most_neighbo
       cv::magnitude(axes[0], axes[1], length);
       OwnAtSize(neighbour.own, frame.size()).convertTo(weight, CV_32F, 1 / 255.0);
       sum += length.mul(weight), weights += weight;
+      line.Add(NeighbourAt(n), axes, weight);
     }
-    if (n % 2 == 0) continue;
-    cv::Mat mean;
-    cv::divide(sum.mul(sure), cv::max(weights, 1), mean);
-    mean.setTo(0, own == 0);
-    result.push_back(mean);
+    if (n % 2 == 1) motion.aof.push_back(finish(cv::Mat(sum / cv::max(weights, 1))));
   }
-  return result;
+  motion.speed = finish(line.Speed());
+  return motion;
 }
 
 double Clearness(const cv::Mat& aof, const cv::Mat& use) {

@@ -51,10 +51,12 @@ SegmentSettings Survey(SteadyReader& reader, const std::vector<int>& places, int
   auto place = places.begin();
   const auto add_whole = [&](int64_t read_up_to) {
     for (; place != places.end() && (*place + kReach <= read_up_to || read_up_to == frames - 1); ++place) {
-      survey.Add(PlaceAt(*place, [&](int64_t k) {
-        const auto frame = there.find(k);
-        return frame == there.end() ? nullptr : &frame->second;
-      }));
+      survey.Add(PlaceAt(*place,
+                         [&](int64_t k) {
+                           const auto frame = there.find(k);
+                           return frame == there.end() ? nullptr : &frame->second;
+                         }),
+                 *place);
     }
     there.erase(there.begin(), there.lower_bound(place == places.end() ? frames : *place - kReach));
   };

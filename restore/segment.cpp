@@ -8,12 +8,22 @@
 
 #include "restore/levels.h"
 #include "restore/mask_cleaning.h"
+#include "restore/otsu.h"
 
 namespace shimmer::restore {
 namespace {
 
 constexpr int kMoverGuard_px = 4;  // around what the flow sees to move
-constexpr double kFarBeyond = 3;
+// What moves on is faster than what is typical of the video, which turbulence makes: by so much, and
+// somewhere by so much. Below kLeastSpeed_px a frame nothing is.
+constexpr double kMoving = 4, kSurelyMoving = 7, kLeastSpeed_px = 0.03;
+constexpr double kMostSpeed_px = 16;
+constexpr double kUnvisited = 2;  // times the threshold where the flow sees nothing move in all of the video
+// Of the frame's longer side: where all that passes goes that far during the video, no one thing hides a
+// pixel for most of it.
+constexpr double kFarTravel = 0.18;
+constexpr int kRim_px = 4;
+constexpr double kRimPart = 0.4;
 constexpr double kUnrestSigma_px = 2;
 constexpr int kLeastObject_px = 20, kStep_px = 3;  // of what moves: its area, and what it does in a frame
 constexpr double kSoftest = 0.5;                   // of the threshold: below it is surely still
@@ -46,16 +56,30 @@ cv::Mat UnrestOf(const Place& place, const cv::Mat& frame) {
   return most;
 }
 
-// How far the frame's own px lie outside of the scene.
-cv::Mat OutsideOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& own) {
-  cv::Mat distance = DistanceTo(scene.interval, level);
-  distance.setTo(0, OwnAtSize(own, level.size()) == 0);
-  return distance;
+// The median of what frames' own px move at.
+double TypicalSpeed(const std::vector<cv::Mat>& speeds, const std::vector<SceneSample>& samples) {
+  PooledHistogram pooled(kMostSpeed_px, 4096);
+  for (size_t k = 0; k < speeds.size(); ++k) {
+    cv::Mat speed;
+    speeds[k].convertTo(speed, CV_32F);
+    pooled.Add(speed, samples[k].own);
+  }
+  return pooled.Quantile(0.5);
 }
 
-cv::Mat ObjectsOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& distance) {
+// How far the frame's own px lie outside of the scene, in thresholds.
+cv::Mat OutsideOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& own) {
+  cv::Mat outside = DistanceTo(scene.interval, level) / scene.threshold;
+  outside.setTo(0, OwnAtSize(own, level.size()) == 0);
+  return outside;
+}
+
+// Objects are blurred: they end where half of what is seen of them near by is left.
+cv::Mat ObjectsOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& outside) {
   const cv::Mat sure = DistanceTo(scene.wide, level) > scene.threshold;
-  return MovingObjects(distance, scene.threshold, sure, kLeastObject_px);
+  cv::Mat most;
+  cv::dilate(outside, most, Disc(kRim_px));
+  return MovingObjects(outside / cv::max(cv::Mat(kRimPart * most), 1.0), 1, sure, kLeastObject_px);
 }
 
 }  // namespace
@@ -74,7 +98,7 @@ std::vector<int> SurveyPlaces(int frames, int most) {
 SegmentSurvey::SegmentSurvey(SegmentMethod method, FlowMaker flow)
     : method_(method), maker_(std::move(flow)), flow_(maker_()) {}
 
-void SegmentSurvey::Add(const Place& place) {
+void SegmentSurvey::Add(const Place& place, int64_t number) {
   RequireSteady(place.current);
   if (place.neighbours.size() != kMostNeighbours)
     throw std::invalid_argument("place must have 6 neighbours, empty where there is none");
@@ -89,9 +113,11 @@ void SegmentSurvey::Add(const Place& place) {
   if (!samples_.empty() &&
       (samples_[0].frame.size() != frame.size() || samples_[0].frame.type() != frame.type()))
     throw std::invalid_argument("place is of another size or type than the first");
-  const std::vector<cv::Mat> aof = AofOf(*flow_, place);
-  choice_.Add(aof, own);
-  for (size_t n = 0; n < aof.size(); ++n) aof[n].convertTo(aof_[n].emplace_back(), CV_16F);
+  const Motion motion = MotionOf(*flow_, place);
+  choice_.Add(motion.aof, own);
+  if (samples_.empty()) first_ = number;
+  last_ = number;
+  motion.speed.convertTo(speeds_.emplace_back(), CV_16F);
   samples_.push_back({frame, own, {}, UnrestOf(place, frame)});
 }
 
@@ -99,17 +125,21 @@ SegmentSettings SegmentSurvey::Settings() const {
   if (samples_.empty()) throw std::invalid_argument("survey without a place");
   SegmentSettings settings{method_, choice_.Settings(), {}, maker_};
   if (method_ == SegmentMethod::kAof) return settings;
-  // Where nothing moves Otsu's threshold parts turbulence itself: movers of which the scene is freed are well
-  // beyond what is typical.
-  const double moving_px = std::max(settings.aof.threshold_px, kFarBeyond * settings.aof.typical_px);
   std::vector<SceneSample> samples = samples_;
+  const double typical = std::max(TypicalSpeed(speeds_, samples), kLeastSpeed_px);
+  cv::Mat unvisited(samples[0].own.size(), CV_8UC1, cv::Scalar(255));
+  cv::Mat travel_px = cv::Mat::zeros(samples[0].own.size(), CV_32FC1);
   for (size_t k = 0; k < samples.size(); ++k) {
-    cv::Mat aof;
-    aof_[static_cast<size_t>(settings.aof.neighbours / 2 - 1)][k].convertTo(aof, CV_32F);
-    cv::dilate(settings.aof.threshold_px > 0 ? cv::Mat(aof > moving_px) : cv::Mat::zeros(aof.size(), CV_8UC1),
+    cv::Mat speed;
+    speeds_[k].convertTo(speed, CV_32F);
+    cv::dilate(MovingObjects(speed, kMoving * typical, speed > kSurelyMoving * typical, kLeastObject_px),
                samples[k].movers, Disc(kMoverGuard_px));
+    unvisited.setTo(0, samples[k].movers);
+    travel_px += speed * (static_cast<double>(last_ - first_) / static_cast<double>(samples.size()));
   }
-  settings.scene = FindStillScene(samples);
+  const int side_px = std::max(travel_px.cols, travel_px.rows);
+  settings.scene = FindStillScene(samples, travel_px > kFarTravel * side_px);
+  cv::Mat(settings.scene.threshold * kUnvisited).copyTo(settings.scene.threshold, unvisited);
   return settings;
 }
 
@@ -170,13 +200,12 @@ cv::Mat Segmenter::MaskAt(int i) {
     const double threshold = settings_.aof.threshold_px;
     mask = threshold > 0 ? cv::Mat(aof > threshold) : cv::Mat::zeros(aof.size(), CV_8UC1);
   } else {
-    const double threshold = settings_.scene.threshold;
     const auto objects = [&](int k) {
       return k < 0 || k >= count ? cv::Mat() : objects_[static_cast<size_t>(k)];
     };
     const cv::Mat kept = Persistent(objects(i), objects(i - 1), objects(i + 1), kStep_px);
     cv::Mat soft, near;
-    distances_[static_cast<size_t>(i)].convertTo(soft, CV_8U, 127 / ((1 - kSoftest) * threshold),
+    distances_[static_cast<size_t>(i)].convertTo(soft, CV_8U, 127 / (1 - kSoftest),
                                                  128 - 127 / (1 - kSoftest));
     cv::dilate(kept, near, Disc(kSoftRim_px));
     mask = cv::Mat::zeros(soft.size(), CV_8UC1);

@@ -37,7 +37,8 @@ class SegmentSurvey {
 
   // Frames as levels.h takes them, all of one size and type. Throws std::invalid_argument. Memory: a float
   // frame of HalvedIfLarge's size a place, and 11 bytes a px.
-  void Add(const Place& place);
+  // number: the frame's, in the video.
+  void Add(const Place& place, int64_t number);
   // After the last; throws std::invalid_argument if there was none.
   SegmentSettings Settings() const;
 
@@ -47,7 +48,8 @@ class SegmentSurvey {
   std::unique_ptr<DenseFlow> flow_;
   AofChoice choice_;
   std::vector<SceneSample> samples_;
-  std::vector<cv::Mat> aof_[kMostNeighbours / 2];
+  int64_t first_ = 0, last_ = 0;
+  std::vector<cv::Mat> speeds_;  // of the samples, CV_16FC1
 };
 
 // What of one frame alone lies outside of the still scene: CV_8UC1 of its size, 255 or 0. Empty where there

@@ -8,25 +8,24 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "restore/levels.h"
 #include "restore/mask_cleaning.h"
-#include "restore/otsu.h"
+#include "restore/scene_threshold.h"
 
 namespace shimmer::restore {
 namespace {
 
 constexpr int kRadius_px = 1;
-constexpr double kSmooth_px = 1.5;
-constexpr int kMostLevels = 256, kBins = 2048;
 constexpr double kAgreeing = 1.0 / 3, kCalmest = 1.0 / 3;
-constexpr int kGuard_px = 3;  // around what is outside of the scene: its blurred rim
-constexpr double kSteepest = 0.1, kLeastSlope = 2, kMostTilt_px = 8;  // levels a px
-constexpr double kSurely = 3;                                         // standard deviations of the tilt
+constexpr double kInside = 0.5;  // of the pooled threshold: what is nearer to the scene is of it
+constexpr int kGuard_px = 3;     // around what is outside of the scene: its blurred rim
+constexpr double kSurely = 3;    // standard deviations of the tilt
 constexpr int kMostWide_px = 8;
-constexpr int kFewest = 2;  // samples that a pixel's median is taken of; of calm ones one more
-// The threshold is Otsu's, divided as the paper's authors do, but no less than so many standard deviations of
-// the pixels around the scene, nor than so many levels.
-constexpr double kDivisor = 1.5, kNoiseFactor = 4, kLeastThreshold = 6;
+// Samples that a pixel's median is taken of, also as a part of all; of calm ones one more. A pixel that is
+// seen by fewer was never seen for sure: the rims of what hides it are not.
+constexpr int kFewest = 2;
+constexpr double kFewestPart = 0.1;
+// Of the pooled threshold: the least where the scene was seen, and where it is but a guess.
+constexpr double kSeenPart = 0.6, kGuessedPart = 1;
 
 struct Medians {
   cv::Mat picture, known;  // known: CV_8UC1, 255 or 0
@@ -80,72 +79,58 @@ void Continue(Medians& scene) {
   }
 }
 
-std::vector<cv::Mat> DistancesTo(const cv::Mat& picture, const std::vector<SceneSample>& samples) {
-  const LocalInterval interval = IntervalOf(picture, kRadius_px);
-  std::vector<cv::Mat> distances;
-  for (const SceneSample& sample : samples) distances.push_back(DistanceTo(interval, sample.frame));
-  return distances;
+// What a picture of the still scene says of the samples.
+struct Judgement {
+  StillScene scene;
+  double pooled;                   // PooledThreshold
+  std::vector<cv::Mat> distances;  // of the samples, to its interval
+};
+Judgement JudgementOf(const cv::Mat& picture, const std::vector<SceneSample>& samples, const cv::Mat& known) {
+  Judgement judgement;
+  StillScene& scene = judgement.scene;
+  scene.picture = picture.clone();
+  scene.tilt_px = TiltOf(picture, samples);
+  scene.interval = IntervalOf(picture, kRadius_px);
+  scene.wide = IntervalOf(
+      picture, std::clamp(static_cast<int>(std::ceil(kSurely * scene.tilt_px)), kRadius_px, kMostWide_px));
+  for (const SceneSample& sample : samples)
+    judgement.distances.push_back(DistanceTo(scene.interval, sample.frame));
+  judgement.pooled = PooledThreshold(picture, samples, judgement.distances);
+  scene.threshold = ThresholdsByExcess(ExcessOf(scene.interval, scene.wide), samples, judgement.distances,
+                                       known, kSeenPart * judgement.pooled);
+  cv::Mat(cv::max(scene.threshold, kGuessedPart * judgement.pooled)).copyTo(scene.threshold, ~known);
+  return judgement;
 }
 
-// A pixel that is moved by d changes by d times its gradient: the median over the steepest pixels, as a
-// standard deviation. What moves is a small part of all.
-double TiltOf(const cv::Mat& picture, const std::vector<SceneSample>& samples) {
-  cv::Mat grey, along_x, along_y, steepness;
-  cv::extractChannel(picture, grey, 0);
-  cv::Sobel(grey, along_x, CV_32F, 1, 0, 3, 1.0 / 8, 0, cv::BORDER_REPLICATE);
-  cv::Sobel(grey, along_y, CV_32F, 0, 1, 3, 1.0 / 8, 0, cv::BORDER_REPLICATE);
-  cv::magnitude(along_x, along_y, steepness);
-  PooledHistogram slopes(kMostLevels, kBins), shifts(kMostTilt_px, kBins);
-  slopes.Add(steepness, cv::Mat(steepness.size(), CV_8UC1, cv::Scalar(255)));
-  const double steep = std::max(slopes.Quantile(1 - kSteepest), kLeastSlope);
-  for (const SceneSample& sample : samples) {
-    cv::Mat other;
-    cv::extractChannel(sample.frame, other, 0);
-    shifts.Add(cv::abs(other - grey) / steepness, (steepness >= steep) & sample.own);
-  }
-  return shifts.Count() == 0 ? 0 : 1.4826 * shifts.Quantile(0.5);
-}
-
-double ThresholdOf(const cv::Mat& picture, const std::vector<SceneSample>& samples,
-                   const std::vector<cv::Mat>& distances) {
-  PooledHistogram outside(kMostLevels, kBins), residuals(kMostLevels, kBins);
+// The part of the samples' own px that show the scene in each pixel is large enough.
+cv::Mat AgreedUpon(const Judgement& judgement, const std::vector<SceneSample>& samples) {
+  cv::Mat agreeing = cv::Mat::zeros(samples[0].own.size(), CV_32FC1), seen = agreeing.clone(), agreed;
   for (size_t k = 0; k < samples.size(); ++k) {
-    outside.Add(distances[k], samples[k].own);
-    cv::Mat residual;
-    cv::extractChannel(cv::abs(samples[k].frame - picture), residual, 0);
-    residuals.Add(residual, samples[k].own);
+    cv::add(agreeing, 1, agreeing, samples[k].own & (judgement.distances[k] <= kInside * judgement.pooled));
+    cv::add(seen, 1, seen, samples[k].own);
   }
-  const double noise = 1.4826 * residuals.Quantile(0.5);
-  return std::max({outside.OtsuThreshold() / kDivisor, kNoiseFactor * noise, kLeastThreshold});
+  cv::erode(agreeing >= kAgreeing * seen, agreed, Disc(1));
+  return agreed;
 }
 
 }  // namespace
 
-LocalInterval IntervalOf(const cv::Mat& scene, int radius_px) {
-  LocalInterval interval;
-  const cv::Mat disc = Disc(radius_px);
-  cv::erode(scene, interval.low, disc);
-  cv::dilate(scene, interval.high, disc);
-  return interval;
-}
-
-cv::Mat DistanceTo(const LocalInterval& interval, const cv::Mat& frame) {
-  const cv::Mat above = frame - interval.high, below = interval.low - frame;
-  const cv::Mat outside = cv::max(cv::Mat(cv::max(above, below)), 0);
-  cv::Mat smooth;
-  cv::GaussianBlur(MostOfChannels(outside), smooth, {0, 0}, kSmooth_px, 0, cv::BORDER_REPLICATE);
-  return smooth;
-}
-
-StillScene FindStillScene(const std::vector<SceneSample>& samples) {
+StillScene FindStillScene(const std::vector<SceneSample>& samples, const cv::Mat& passing) {
   if (samples.empty()) throw std::invalid_argument("FindStillScene: there are no samples");
   const int count = static_cast<int>(samples.size());
   const auto at = [&](int k) -> const SceneSample& { return samples[static_cast<size_t>(k)]; };
-  const size_t fewest = static_cast<size_t>(std::min(kFewest, count));
+  const size_t fewest =
+      static_cast<size_t>(std::max(std::min(kFewest, count), static_cast<int>(kFewestPart * count)));
   Medians scene = MediansOf(samples, [&](int y, int x, std::vector<int>& chosen) {
-    for (int k = 0; k < count; ++k)
-      if (at(k).own.at<uint8_t>(y, x) != 0 && at(k).movers.at<uint8_t>(y, x) == 0) chosen.push_back(k);
-    if (chosen.size() < fewest) return chosen.clear();
+    const auto choose = [&](bool movers) {
+      chosen.clear();
+      for (int k = 0; k < count; ++k)
+        if (at(k).own.at<uint8_t>(y, x) != 0 && (movers || at(k).movers.at<uint8_t>(y, x) == 0))
+          chosen.push_back(k);
+      return chosen.size() >= fewest;
+    };
+    const bool passes = !passing.empty() && passing.at<uint8_t>(y, x) != 0;
+    if (!choose(false) && !(passes && choose(true))) return chosen.clear();
     const size_t calm = std::min(chosen.size(), std::max(fewest + 1, static_cast<size_t>(count * kCalmest)));
     std::ranges::sort(chosen, {}, [&](int k) { return std::pair(at(k).unrest.at<float>(y, x), k); });
     chosen.resize(calm);
@@ -154,24 +139,19 @@ StillScene FindStillScene(const std::vector<SceneSample>& samples) {
     scene = MediansOf(samples, [&](int, int, std::vector<int>& chosen) {
       for (int k = 0; k < count; ++k) chosen.push_back(k);
     });
+  cv::Mat known = scene.known.clone();
   Continue(scene);
 
-  std::vector<cv::Mat> distances = DistancesTo(scene.picture, samples);
-  double threshold = ThresholdOf(scene.picture, samples, distances);
-  cv::Mat agreeing = cv::Mat::zeros(scene.known.size(), CV_32FC1), seen = agreeing.clone();
-  for (int k = 0; k < count; ++k) {
-    cv::add(agreeing, 1, agreeing, at(k).own & (distances[static_cast<size_t>(k)] <= threshold / 2));
-    cv::add(seen, 1, seen, at(k).own);
-  }
-  cv::erode(agreeing >= kAgreeing * seen, scene.known, Disc(1));
+  scene.known = AgreedUpon(JudgementOf(scene.picture, samples, known), samples);
+  known &= scene.known;
   Continue(scene);
 
-  distances = DistancesTo(scene.picture, samples);
+  const Judgement judgement = JudgementOf(scene.picture, samples, known);
   std::vector<cv::Mat> inside;
-  for (int k = 0; k < count; ++k) {
+  for (size_t k = 0; k < samples.size(); ++k) {
     cv::Mat outside;
-    cv::dilate(distances[static_cast<size_t>(k)] > threshold / 2, outside, Disc(kGuard_px));
-    inside.push_back(at(k).own & ~outside);
+    cv::dilate(judgement.distances[k] > kInside * judgement.pooled, outside, Disc(kGuard_px));
+    inside.push_back(samples[k].own & ~outside);
   }
   const Medians better = MediansOf(samples, [&](int y, int x, std::vector<int>& chosen) {
     const auto choose = [&](bool movers) {
@@ -185,12 +165,7 @@ StillScene FindStillScene(const std::vector<SceneSample>& samples) {
     if (!choose(false) && !choose(true)) chosen.clear();
   });
   better.picture.copyTo(scene.picture, better.known);
-  distances = DistancesTo(scene.picture, samples);
-  threshold = ThresholdOf(scene.picture, samples, distances);
-  const double tilt = TiltOf(scene.picture, samples);
-  const int wide = std::clamp(static_cast<int>(std::ceil(kSurely * tilt)), kRadius_px, kMostWide_px);
-  return {IntervalOf(scene.picture, kRadius_px), IntervalOf(scene.picture, wide), tilt, scene.picture,
-          threshold};
+  return JudgementOf(scene.picture, samples, known).scene;
 }
 
 }  // namespace shimmer::restore

@@ -1,6 +1,6 @@
 // IoU of the masks that segmenting finds in clips of `shimmer generate` with the truth `mask` on disk, by the
-// paper's averaged flow and by ours. The frames are stabilised first, where they shook, and the true masks
-// are moved by the same shifts; px that a frame does not see are left out. Arguments: folders of data sets;
+// paper's averaged flow and by ours. The frames are stabilised first, where they shook, as the true masks are
+// of the steady camera; px that a frame does not see are left out. Arguments: folders of data sets;
 // --labels FOLDER: label images of CDnet of the frames, whose unknown px (85 and 170) are left out too;
 // --stages FOLDER: write masks.
 #include <algorithm>
@@ -14,7 +14,6 @@
 #include "restore/border_fill.h"
 #include "restore/mask_scores.h"
 #include "restore/segment.h"
-#include "restore/translate.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/table.h"
 
@@ -62,7 +61,7 @@ std::vector<cv::Mat> Masks(const std::vector<SteadyFrame>& frames, SegmentMethod
                            double& milliseconds) {
   const int count = static_cast<int>(frames.size());
   SegmentSurvey survey(method);
-  for (const int k : SurveyPlaces(count)) survey.Add(PlaceAt(k, frames));
+  for (const int k : SurveyPlaces(count)) survey.Add(PlaceAt(k, frames), k);
   Segmenter segmenter(survey.Settings());
   std::vector<cv::Mat> masks;
   const double start = static_cast<double>(cv::getTickCount());
@@ -90,12 +89,17 @@ double MeanIou(const std::vector<cv::Mat>& masks, const std::vector<cv::Mat>& tr
 int main(int argc, char** argv) {
   using namespace shimmer::bench;
   fs::path labels_folder, stages;
+  bool fused_only = false;
   Table table({"clip", "size", "tilt RMS px", "aof", "fused", "aof, known", "fused, known", "fused ms"});
   std::map<double, std::vector<std::pair<double, double>>> by_strength;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--labels") {
       labels_folder = argv[++i];
+      continue;
+    }
+    if (argument == "--fused") {
+      fused_only = true;
       continue;
     }
     if (argument == "--stages") {
@@ -119,13 +123,12 @@ int main(int argc, char** argv) {
       const Clip clip = Steadied(Pictures(path / "turb", cv::IMREAD_COLOR));
       std::vector<cv::Mat> truth = Pictures(path / "mask", cv::IMREAD_GRAYSCALE), own, known;
       for (size_t k = 0; k < truth.size(); ++k) {
-        truth[k] = shimmer::restore::Translated(truth[k], clip.shifts[k].px);
         own.push_back(clip.frames[k].own);
         known.push_back(own[k].clone());
         if (k < labels.size()) known[k].setTo(0, (labels[k] == 85) | (labels[k] == 170));
       }
       double aof_ms = 0, fused_ms = 0;
-      const auto aof = Masks(clip.frames, SegmentMethod::kAof, aof_ms);
+      const auto aof = fused_only ? truth : Masks(clip.frames, SegmentMethod::kAof, aof_ms);
       const auto fused = Masks(clip.frames, SegmentMethod::kFused, fused_ms);
       if (!stages.empty()) {
         const fs::path folder = stages / path.filename();

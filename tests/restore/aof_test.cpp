@@ -68,6 +68,47 @@ TEST(Aof, IsTheMeanOfLengths) {
       }
 }
 
+// The line that fits best in double: what moves on at a steady pace has that speed, and noise that is
+// independent from frame to frame is left by 1 / sqrt(sum of squared times) of its deviation: 1/13.
+TEST(Aof, SpeedIsThatOfTheLineThatFits) {
+  const cv::Mat frame = Noise({31, 23}, CV_8UC3, 1);
+  std::vector<cv::Mat> flows = RandomFlows(frame.size()), steady;
+  for (int n = 0; n < kMostNeighbours; ++n)
+    steady.push_back(cv::Mat(frame.size(), CV_32FC2, cv::Scalar(0.75, -1.0) * NeighbourAt(n)));
+  Known flow(flows), on(steady);
+  const cv::Mat speed = MotionOf(flow, WithNeighbours(frame)).speed;
+  double squares = 0;
+  for (int y = 0; y < frame.rows; ++y)
+    for (int x = 0; x < frame.cols; ++x) {
+      double slope[2] = {};
+      for (int n = 0; n < kMostNeighbours; ++n)
+        for (int axis = 0; axis < 2; ++axis)
+          slope[axis] += NeighbourAt(n) *
+                         static_cast<double>(flows[static_cast<size_t>(n)].at<cv::Vec2f>(y, x)[axis]) / 168;
+      const double truth = std::hypot(slope[0], slope[1]);
+      ASSERT_NEAR(speed.at<float>(y, x), truth, 2e-3 * truth + 1e-5);
+      squares += truth * truth / 2;
+    }
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(speed.total())), 5 / std::sqrt(168.0), 0.02);
+  EXPECT_NEAR(MotionOf(on, WithNeighbours(frame)).speed.at<float>(9, 9), 1.25, 3e-3);
+}
+
+// At the end of a video there are only earlier frames: what they have in common is the frame's own tilt.
+TEST(Aof, SpeedForgetsTheFramesOwnTilt) {
+  const cv::Mat frame = Noise({31, 23}, CV_8UC1, 1);
+  std::vector<cv::Mat> flows;
+  Place place = WithNeighbours(frame);
+  for (int n = 0; n < kMostNeighbours; ++n)
+    if (NeighbourAt(n) > 0)
+      place.neighbours[static_cast<size_t>(n)] = {};
+    else
+      flows.push_back(cv::Mat(frame.size(), CV_32FC2, cv::Scalar(3, 0)));
+  Known flow(flows);
+  // 3 px aside of all three: of the line through (0, 0) and them the slope is 42 / 133 px a frame, not 3
+  // / 4.67.
+  EXPECT_NEAR(MotionOf(flow, place).speed.at<float>(9, 9), 42.0 / 140, 3e-3);
+}
+
 TEST(Aof, MissingAndFilledNeighboursAreLeftOut) {
   const cv::Mat frame = Noise({31, 23}, CV_8UC1, 1);
   const std::vector<cv::Mat> flows = RandomFlows(frame.size());

@@ -49,7 +49,7 @@ Video Road(cv::Size size, int type, int count, bool box, double tilt_px = 0.7) {
 std::vector<cv::Mat> Masks(const std::vector<SteadyFrame>& frames, SegmentMethod method) {
   const int count = static_cast<int>(frames.size());
   SegmentSurvey survey(method);
-  for (const int k : SurveyPlaces(count)) survey.Add(PlaceAt(k, frames));
+  for (const int k : SurveyPlaces(count)) survey.Add(PlaceAt(k, frames), k);
   Segmenter segmenter(survey.Settings());
   std::vector<cv::Mat> masks;
   for (const SteadyFrame& frame : frames)
@@ -170,8 +170,8 @@ TEST(Segment, MasksOfLargeFramesAreOfTheirSize) {
   const Video video = Road({1005, 75}, CV_8UC1, 8, true);
   const std::vector<cv::Mat> masks = Masks(video.frames, SegmentMethod::kFused);
   EXPECT_EQ(masks.back().size(), cv::Size(1005, 75));
-  // The box is 201x15 px and half of that where it is looked for: 4 px to each side. 3015 of 209 * 23 px.
-  EXPECT_GT(Iou(masks, video.truth), 0.6);
+  // The box is 201x15 px and half of that where it is looked for: 5 px to each side. 3015 of 211 * 25 px.
+  EXPECT_GT(Iou(masks, video.truth), 0.55);
 }
 
 TEST(Segment, PlacesAreSpreadOverTheVideo) {
@@ -187,12 +187,12 @@ TEST(Segment, BadInput) {
   const Place alone{{frame, own}, std::vector<SteadyFrame>(kMostNeighbours)};
   SegmentSurvey survey(SegmentMethod::kFused);
   EXPECT_THROW(survey.Settings(), std::invalid_argument);
-  EXPECT_THROW(survey.Add({{frame, own}, {}}), std::invalid_argument);
-  EXPECT_THROW(survey.Add({{frame, own.row(0)}, alone.neighbours}), std::invalid_argument);
+  EXPECT_THROW(survey.Add({{frame, own}, {}}, 0), std::invalid_argument);
+  EXPECT_THROW(survey.Add({{frame, own.row(0)}, alone.neighbours}, 0), std::invalid_argument);
   Place mixed = alone;
   mixed.neighbours[3] = {frame.rowRange(0, 10), own.rowRange(0, 10)};
-  EXPECT_THROW(survey.Add(mixed), std::invalid_argument);
-  survey.Add(alone);
+  EXPECT_THROW(survey.Add(mixed, 0), std::invalid_argument);
+  survey.Add(alone, 0);
   Segmenter segmenter(survey.Settings());
   EXPECT_THROW(segmenter.Next({cv::Mat(), own}), std::invalid_argument);
   EXPECT_THROW(segmenter.Next({Noise({20, 20}, CV_8UC1, 1), own}), std::invalid_argument);
