@@ -22,8 +22,8 @@ constexpr double kFlatContrast = 2e-4, kLeastContrast = 2e-3;
 // below chance.
 constexpr double kLeastCorrelation = 0.12, kLeastEvidence = 1.8;  // evidence: correlation * clearness
 
-// Of the texture. Frames that follow a car in front of little else have 0.4 to 0.74, the others 0.75 and
-// more.
+// Of the texture. Frames that follow nothing had 0.75 and more; of two clips that follow a car one had 0.4 to
+// 0.71, the other less than this in 8 of 27 frames only.
 constexpr double kLeastAgreeing = 0.72;
 
 constexpr int kLeastScene = 8;  // frames
