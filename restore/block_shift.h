@@ -20,20 +20,28 @@ struct BlockShift {
   cv::Point2f axis;  // of length 1
   double shift_px;   // along it
   double noise_px2;  // variance by what the shift does not explain
+  cv::Point at;      // of the block, px of the frame
+  bool textured;     // along any axis
+};
+
+struct FrameBlocks {
+  cv::Size frame;
+  std::vector<BlockShift> shifts;  // one or two a block, blocks one after the other
+  int textured = 0;                // blocks with texture, whether or not they gave a shift
 };
 
 // By how much `frame` has still to be moved, frame(p + shift) = reference(p), block by block. frame,
 // reference and seen are CV_32FC1 of one size; pixels where seen or a neighbour's is 0 are left out, and so
 // is a rim of Mosaic::kRim_px of the frame. Shifts are good to a px or two. Blocks without texture, or that
 // correlate with the reference by less than 0.5, give none.
-std::vector<BlockShift> BlockShifts(const cv::Mat& frame, const cv::Mat& reference, const cv::Mat& seen);
+FrameBlocks BlockShifts(const cv::Mat& frame, const cv::Mat& reference, const cv::Mat& seen);
 
 struct CommonShift {
   cv::Point2d shift_px;   // NaN where it isn't determined along both axes
   double scatter_px = 0;  // of the blocks around it along an axis, standard deviation: turbulence
-  double error_px = 0;    // standard deviation of shift_px along the worse axis, blocks taken as independent
-  double agreeing = 0;    // part of the weight, in [0, 1], that Tukey's biweight left
+  double error_px = 0;    // what |shift_px - truth| stays within, mostly
+  double agreeing = 0;    // part of the blocks with texture, in [0, 1], that the biweight leaves a weight
 };
-CommonShift CommonShiftOf(const std::vector<BlockShift>& blocks);
+CommonShift CommonShiftOf(const FrameBlocks& blocks);
 
 }  // namespace shimmer::restore

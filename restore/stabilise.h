@@ -30,7 +30,13 @@ struct FrameShift {
       0;                 // of the frame's detail with the others' mean, in [-1, 1]; 1 where there is no other
   double clearness = 0;  // its score, in standard deviations of those by chance; 0 in the first frame
   double scatter_px = 0;  // of blocks of the frame around s, along an axis, standard deviation: turbulence
-  double error_px = 0;    // standard deviation of s by that scatter
+  // What |s - truth| stays within: of 309 in 310 held-out frames of 1080p under strong turbulence, of 3 in 4
+  // of 320x240 under as many px of it, where the air's mean is too large to be told from its differences. The
+  // first frame's own air is in it; 0 in the first frame. Not where s is an object's: that is what unsure is
+  // for.
+  double error_px = 0;
+  double agreeing = 0;  // part of what has texture that moves with s, in [0, 1]
+  bool unsure = false;  // kFound, but much moves otherwise: s may be that of a large object
 };
 
 struct StabiliseParams {

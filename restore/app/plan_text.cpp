@@ -28,11 +28,12 @@ std::string KindText(int type) {
 std::string ShakeText(const VideoFacts& facts) {
   double most_px = 0;
   std::vector<double> scatter_px;
-  int64_t flat = 0, lost = 0;
+  int64_t flat = 0, lost = 0, unsure = 0;
   for (const FrameShift& shift : facts.shifts) {
     most_px = std::max({most_px, std::abs(shift.px.x), std::abs(shift.px.y)});
     flat += shift.match == Match::kFlat;
     lost += shift.match == Match::kLost;
+    unsure += shift.unsure;
     if (shift.match == Match::kFound) scatter_px.push_back(shift.scatter_px);
   }
   std::string text = "shake     up to " + Decimals(most_px) + " px\n";
@@ -43,6 +44,9 @@ std::string ShakeText(const VideoFacts& facts) {
   if (flat > 0) text += cli::Counted(flat, "frame") + " of one colour: they stay where the one before is\n";
   if (lost > 0)
     text += cli::Counted(lost, "frame") + " unlike the others: they stay where the one before is\n";
+  if (unsure > 0)
+    text +=
+        cli::Counted(unsure, "frame") + " in which much moves otherwise: the shake may be a large object's\n";
   return text;
 }
 
