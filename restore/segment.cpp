@@ -74,7 +74,7 @@ cv::Mat OutsideOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& 
   return outside;
 }
 
-// Objects are blurred: they end where half of what is seen of them near by is left.
+// Objects are blurred: they end where that part of what is seen of them near by is left.
 cv::Mat ObjectsOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& outside) {
   const cv::Mat sure = DistanceTo(scene.wide, level) > scene.threshold;
   cv::Mat most;
