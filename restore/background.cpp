@@ -130,8 +130,10 @@ Background::Background(BackgroundParams params) : params_(std::move(params)) {
     gaussian_.push_back(
         static_cast<float>(std::exp(-0.5 * std::pow(k / std::max(params_.ahead / 2.0, 0.5), 2))));
   if (params_.registered)
-    registration_.emplace(RegisterParams{
-        .first_frames = params_.ahead + 1, .frames_a_keyframe = params_.ahead + 1, .flow = params_.flow});
+    registration_.emplace(RegisterParams{.scene = params_.scene,
+                                         .first_frames = params_.ahead + 1,
+                                         .frames_a_keyframe = params_.ahead + 1,
+                                         .flow = params_.flow});
 }
 
 void Background::StartFrom(const cv::Mat& background) {

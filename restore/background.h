@@ -18,7 +18,8 @@ struct BackgroundParams {
   // Frames on either side of one that count with it, in [0, 100]. Their weights are those of a Gaussian of
   // sigma = ahead / 2 frames. 0: each frame by itself.
   int ahead = 14;
-  bool registered = false;  // to their mean before the mean is taken (register.h)
+  bool registered = false;    // before the mean is taken (register.h)
+  SceneReference scene = {};  // to this; empty: to their mean
   PairFlow flow = FineFlow();
 };
 

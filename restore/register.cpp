@@ -3,22 +3,15 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <memory>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "restore/detail_level.h"
-#include "restore/flow.h"
-#include "restore/levels.h"
-
 namespace shimmer::restore {
 namespace {
 
-constexpr int kLeastSide_px = 16;
-constexpr int kBand = 64;                  // rows that one thread takes at a time
-constexpr double kLeastRange = 1 / 255.0;  // of white: less is not stretched further
+constexpr int kBand = 64;  // rows that one thread takes at a time
 
 void RequireAtLeastOne(int value, const char* name) {
   if (value < 1)
@@ -26,11 +19,6 @@ void RequireAtLeastOne(int value, const char* name) {
 }
 
 }  // namespace
-
-PairFlow FineFlow() {
-  return [flow = std::shared_ptr<DenseFlow>(DisFlow(DisPreset::kMedium))](
-             const cv::Mat& from, const cv::Mat& to) { return flow->Flow(from, to); };
-}
 
 WeighedFrame Warped(const WeighedFrame& in, const cv::Mat& flow) {
   const cv::Size size = in.frame.size();
@@ -70,32 +58,20 @@ Registration::Registration(RegisterParams params) : params_(std::move(params)) {
   RequireAtLeastOne(params_.frames_a_keyframe, "frames_a_keyframe");
   RequireAtLeastOne(params_.memory_frames, "memory_frames");
   if (!params_.flow) throw std::invalid_argument("flow: there is none");
+  if (!params_.scene.grey.empty()) reference_.emplace(params_.scene, params_.flow);
 }
 
-// In levels, CV_32FC1, and its weights in [0, 1]; both reduced.
-cv::Mat Registration::GreyOf(const WeighedFrame& frame, cv::Mat& weight) const {
-  cv::Mat grey;  // (what is reduced may be the frame itself)
-  ReducedGrey(frame.frame, scale_).convertTo(grey, CV_32F, 255 / WhiteOf(frame.frame.depth()));
-  if (frame.weight.empty()) {
-    weight = cv::Mat::ones(grey.size(), CV_32FC1);
-  } else {
-    cv::resize(frame.weight({0, 0, grey.cols * scale_, grey.rows * scale_}), weight, grey.size(), 0, 0,
-               cv::INTER_AREA);
-    weight.convertTo(weight, CV_32F, 1 / 255.0);
+void Registration::AddToMean(const GreyFrame& frame) {
+  if (sum_.empty()) {
+    sum_ = cv::Mat::zeros(frame.grey.size(), CV_32FC1), weight_ = sum_.clone();
+    mean_flow_ = cv::Mat::zeros(sum_.size(), CV_32FC2);
   }
-  return grey;
-}
-
-void Registration::AddToMean(const WeighedFrame& frame) {
-  cv::Mat weight;
-  const cv::Mat grey = GreyOf(frame, weight);
-  if (sum_.empty()) sum_ = cv::Mat::zeros(grey.size(), CV_32FC1), weight_ = sum_.clone();
   if (frames_ >= params_.memory_frames) {
     const double kept = 1 - 1.0 / params_.memory_frames;
     sum_ *= kept, weight_ *= kept, frames_ *= kept;
   }
-  sum_ += grey.mul(weight);
-  weight_ += weight;
+  sum_ += frame.grey.mul(frame.weight);
+  weight_ += frame.weight;
   ++frames_;
 }
 
@@ -105,27 +81,9 @@ void Registration::MakeReference() {
   cv::Mat mean = sum_ / cv::max(weight_, 1e-6);
   const cv::Mat unseen = weight_ < 1e-3;
   mean.setTo(cv::mean(mean, ~unseen), unseen);
-  if (reference_.empty()) {
-    double white = 0;
-    cv::minMaxLoc(mean, &black_, &white);
-    gain_ = 255 / std::max(white - black_, 255 * kLeastRange);
-    mean_flow_ = cv::Mat::zeros(mean.size(), CV_32FC2);
-  }
-  cv::Mat reference;
-  mean.convertTo(reference, CV_8U, gain_, -gain_ * black_);
   // Where the old reference's p lies in the new one: flows from there start so much later.
-  if (!reference_.empty()) mean_flow_ -= params_.flow(reference_, reference);
-  reference_ = reference;
-}
-
-cv::Mat Registration::FlowOf(const WeighedFrame& frame) const {
-  cv::Mat weight, to;
-  GreyOf(frame, weight).convertTo(to, CV_8U, gain_, -gain_ * black_);
-  if (!frame.weight.empty()) {
-    const cv::Mat rest = 1 - weight;
-    cv::blendLinear(to, reference_, weight, rest, to);
-  }
-  return params_.flow(reference_, to);
+  if (reference_) mean_flow_ -= reference_->To({mean, cv::Mat::ones(mean.size(), CV_32FC1)});
+  reference_.emplace(SceneReference{mean, {}}, params_.flow);
 }
 
 void Registration::AddToMeanFlow(const cv::Mat& flow, double share) {
@@ -133,24 +91,17 @@ void Registration::AddToMeanFlow(const cv::Mat& flow, double share) {
 }
 
 std::vector<WeighedFrame> Registration::Next(WeighedFrame frame) {
-  RequireFrame(frame.frame, "frame");
-  if (size_.empty()) {
-    size_ = frame.frame.size(), type_ = frame.frame.type();
-    if (std::min(size_.width, size_.height) < kLeastSide_px)
-      throw std::invalid_argument("frame: must be at least 16x16 px");
-    scale_ = std::max(size_.width, size_.height) > kLargeSide_px ? 2 : 1;
-  }
-  if (frame.frame.size() != size_ || frame.frame.type() != type_)
-    throw std::invalid_argument("frame: is of another size or type than the first");
-  if (!frame.weight.empty() && (frame.weight.type() != CV_8UC1 || frame.weight.size() != size_))
-    throw std::invalid_argument("weight: must be CV_8UC1 and of the frame's size");
-  AddToMean(frame);
-  if (reference_.empty()) {
+  if (size_.empty()) size_ = frame.frame.size(), type_ = frame.frame.type();
+  RequireRegistrable(frame, size_, type_);
+  const GreyFrame grey = GreyOf(frame);
+  if (!params_.scene.grey.empty()) return {Warped(frame, reference_->To(grey))};
+  AddToMean(grey);
+  if (!reference_) {
     held_.push_back(std::move(frame));
     return static_cast<int>(held_.size()) < params_.first_frames ? std::vector<WeighedFrame>{} : Rest();
   }
   if (++since_keyframe_ >= params_.frames_a_keyframe) MakeReference();
-  const cv::Mat flow = FlowOf(frame);
+  const cv::Mat flow = reference_->To(grey);
   flows_ = std::min<double>(flows_ + 1, params_.memory_frames);
   AddToMeanFlow(flow, 1 / flows_);
   return {Warped(frame, flow - mean_flow_)};
@@ -161,7 +112,7 @@ std::vector<WeighedFrame> Registration::Rest() {
   MakeReference();
   std::vector<cv::Mat> flows;
   for (const WeighedFrame& frame : held_) {
-    flows.push_back(FlowOf(frame));
+    flows.push_back(reference_->To(GreyOf(frame)));
     AddToMeanFlow(flows.back(), 1 / ++flows_);
   }
   std::vector<WeighedFrame> registered;

@@ -1,8 +1,10 @@
 #include "restore/scene_look.h"
 
 #include <map>
+#include <optional>
 #include <set>
 
+#include "restore/scene_reference.h"
 #include "restore/translate.h"
 
 namespace shimmer::restore {
@@ -76,20 +78,26 @@ int64_t ReadsOfLook(int64_t frames) {
 }
 
 SceneFacts LookAtScene(Frames& video, std::span<const FrameShift> shifts, bool grey, SegmentMethod method,
-                       const FlowMaker& flow, const std::function<void()>& step) {
+                       const FlowMaker& flow, Register registered, const std::function<void()>& step) {
   const int64_t frames = video.count();
   const std::vector<int> places = SurveyPlaces(static_cast<int>(frames));
   SteadyReader reader(video, shifts, grey, step);
   SceneFacts facts{.segment = Survey(reader, places, frames, method, flow)};
   StrengthEstimate strength;
+  std::optional<SceneReferenceMean> reference;
+  if (method == SegmentMethod::kFused && registered != Register::kOff) reference.emplace();
   for (const int place : places) {
     const SteadyFrame steady = reader.Read(place);
     const cv::Mat moving = MovingAt(facts.segment, steady);  // empty: not known of a frame alone
     if (!moving.empty()) facts.moving_share += cv::mean(moving)[0] / 255 / static_cast<double>(places.size());
-    strength.Add(steady.frame, moving.empty() ? ~steady.own : moving | ~steady.own);
+    const cv::Mat hidden = moving.empty() ? cv::Mat(~steady.own) : cv::Mat(moving | ~steady.own);
+    strength.Add(steady.frame, hidden);
+    if (reference) reference->Add({steady.frame, ~hidden});
   }
   if (method == SegmentMethod::kAof) facts.moving_share = facts.segment.aof.threshold_px > 0;
   facts.strength = strength.Result();
+  if (reference && BackgroundFor(facts.strength, registered).registered)
+    facts.reference = reference->Result();
   return facts;
 }
 

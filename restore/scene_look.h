@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 
+#include "restore/background.h"
 #include "restore/frames.h"
 #include "restore/segment.h"
 #include "restore/stabilise.h"
@@ -18,14 +19,15 @@ struct SceneFacts {
   double moving_share =
       0;  // of the frames looked at, what moves in them; kAof: 1 or 0, whether anything does
   TurbulenceStrength strength = {};
+  SceneReference reference = {};  // of kFused, where frames are to be registered
 };
 
 // At places evenly spread over the video, with their neighbours; then at the places once more, to see what
 // moves there, and how strong the air is elsewhere. shifts: empty where frames are taken as they are; grey:
-// one channel of them. Frames are read forward, but for one start anew. step: called after each read. Throws
-// what reading and the flow throw.
+// one channel of them; registered: whether frames are to be, as BackgroundFor says. Frames are read forward,
+// but for one start anew. step: called after each read. Throws what reading and the flow throw.
 SceneFacts LookAtScene(Frames& video, std::span<const FrameShift> shifts, bool grey, SegmentMethod method,
-                       const FlowMaker& flow, const std::function<void()>& step);
+                       const FlowMaker& flow, Register registered, const std::function<void()>& step);
 
 // How many frames that reads.
 int64_t ReadsOfLook(int64_t frames);

@@ -229,7 +229,8 @@ std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const Vide
   if (plan.segment) stages.push_back(std::make_unique<Segment>(facts.scene->segment));
   if (plan.stack) {
     stages.push_back(std::make_unique<Stack>(
-        BackgroundParams{.ahead = plan.ahead, .registered = plan.registered}, facts.scene->segment.scene));
+        BackgroundParams{.ahead = plan.ahead, .registered = plan.registered, .scene = facts.scene->reference},
+        facts.scene->segment.scene));
     stages.push_back(std::make_unique<Blend>());
   }
   if (plan.area.size() != plan.size)

@@ -74,8 +74,9 @@ VideoFacts Look(const RestoreOptions& options, const std::optional<Optics>& opti
   if (!HasOneScene(facts, params) || !(params.stack || optics)) return facts;
   cli::Progress progress("places looked at", ReadsOfLook(facts.frames), 0, options.quiet);
   const bool moved = params.stabilise && !IsSteady(facts.shifts);
-  facts.scene = LookAtScene(video, moved ? facts.shifts : std::vector<FrameShift>(), facts.grey,
-                            params.method, flow, [&] { progress.Step(); });
+  facts.scene =
+      LookAtScene(video, moved ? facts.shifts : std::vector<FrameShift>(), facts.grey, params.method, flow,
+                  params.stack ? params.registered : Register::kOff, [&] { progress.Step(); });
   return facts;
 }
 

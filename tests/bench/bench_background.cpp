@@ -1,7 +1,8 @@
 // How good backgrounds are: clips of `shimmer generate` of a static scene, with the truth `tilt` on disk and
 // one clean frame. PSNR in dB against it of a frame, of the plain mean and median over time, and of ours
-// without and with registration, each the mean over the clip's frames; and the strength that was found beside
-// the true root mean square of the tilt, px along an axis. Arguments: folders of data sets.
+// without registration, with it to the frames' mean and to the reference of the whole clip, each the mean
+// over the clip's frames; and the strength that was found beside the true root mean square of the tilt, px
+// along an axis. Arguments: folders of data sets.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +15,8 @@
 
 #include "restore/background.h"
 #include "restore/psnr.h"
+#include "restore/scene_reference.h"
+#include "restore/segment.h"
 #include "restore/turbulence_strength.h"
 #include "sim/dataset/image_io.h"
 
@@ -71,8 +74,16 @@ double MeanPsnr(const std::vector<cv::Mat>& frames, const cv::Mat& clean) {
   return sum / static_cast<double>(frames.size());
 }
 
-std::vector<cv::Mat> Backgrounds(const std::vector<cv::Mat>& frames, bool registered) {
-  restore::Background background({.registered = registered});
+restore::SceneReference ReferenceOf(const std::vector<cv::Mat>& frames) {
+  restore::SceneReferenceMean mean;
+  for (const int place : restore::SurveyPlaces(static_cast<int>(frames.size())))
+    mean.Add({frames[static_cast<size_t>(place)], {}});
+  return mean.Result();
+}
+
+std::vector<cv::Mat> Backgrounds(const std::vector<cv::Mat>& frames,
+                                 const restore::BackgroundParams& params) {
+  restore::Background background(params);
   std::vector<cv::Mat> means;
   for (const cv::Mat& frame : frames)
     if (const auto mean = background.Next({frame, {}})) means.push_back(mean->frame);
@@ -81,18 +92,22 @@ std::vector<cv::Mat> Backgrounds(const std::vector<cv::Mat>& frames, bool regist
 }
 
 void Report(const fs::path& set) {
-  std::printf("%s\n%-8s %7s %7s %8s %8s %8s %8s %10s\n", set.filename().c_str(), "clip", "tilt", "found",
-              "frame", "mean", "median", "ours", "registered");
-  std::array<double, 5> sum{};
+  std::printf("%s\n%-8s %7s %7s %8s %8s %8s %8s %8s %8s\n", set.filename().c_str(), "clip", "tilt", "found",
+              "frame", "mean", "median", "ours", "to mean", "to scene");
+  std::array<double, 6> sum{};
   double clips = 0;
   for (const fs::path& clip : FilesOf(set / "clips")) {
     const std::vector<cv::Mat> frames = FramesOf(clip / "turb");
     const cv::Mat clean = FramesOf(clip / "clean").front();
     restore::StrengthEstimate strength;
     for (const cv::Mat& frame : frames) strength.Add(frame);
-    const std::array<double, 5> psnr = {
-        MeanPsnr(frames, clean), MeanPsnr({MeanOf(frames)}, clean), MeanPsnr({MedianOf(frames)}, clean),
-        MeanPsnr(Backgrounds(frames, false), clean), MeanPsnr(Backgrounds(frames, true), clean)};
+    const std::array<double, 6> psnr = {
+        MeanPsnr(frames, clean),
+        MeanPsnr({MeanOf(frames)}, clean),
+        MeanPsnr({MedianOf(frames)}, clean),
+        MeanPsnr(Backgrounds(frames, {}), clean),
+        MeanPsnr(Backgrounds(frames, {.registered = true}), clean),
+        MeanPsnr(Backgrounds(frames, {.registered = true, .scene = ReferenceOf(frames)}), clean)};
     std::printf("%-8s %7.3f %7.3f", clip.filename().c_str(), TrueTilt(clip / "truth"),
                 std::sqrt(strength.Result().tilt_variance_px2));
     for (size_t i = 0; i < psnr.size(); ++i) std::printf(" %8.2f", psnr[i]), sum[i] += psnr[i];

@@ -8,6 +8,7 @@
 #include "restore/background.h"
 #include "restore/blend.h"
 #include "restore/border_fill.h"
+#include "restore/scene_reference.h"
 #include "restore/stabilise.h"
 #include "restore/translate.h"
 #include "restore/turbulence_strength.h"
@@ -119,7 +120,13 @@ Turbulent TurbulentFrames(cv::Size size) {
 
 void MeanBackground(benchmark::State& state, cv::Size size, bool registered) {
   const Turbulent video = TurbulentFrames(size);
-  Background background({.registered = registered});
+  BackgroundParams params{.registered = registered};
+  if (registered) {
+    SceneReferenceMean mean;
+    for (size_t k = 0; k < kFrames; ++k) mean.Add({video.frames[k], ~video.moving[k]});
+    params.scene = mean.Result();
+  }
+  Background background(params);
   size_t k = 0;
   const auto next = [&] {
     const size_t at = k++ % kFrames;
@@ -140,6 +147,13 @@ void Strength(benchmark::State& state, cv::Size size) {
     const size_t at = k++ % kFrames;
     estimate.Add(video.frames[at], video.moving[at]);
   }
+}
+
+void Reference(benchmark::State& state, cv::Size size) {
+  const Turbulent video = TurbulentFrames(size);
+  SceneReferenceMean mean;
+  for (size_t k = 0; k < 32; ++k) mean.Add({video.frames[k % kFrames], ~video.moving[k % kFrames]});
+  for (auto _ : state) benchmark::DoNotOptimize(mean.Result().grey.data);
 }
 
 void Blend(benchmark::State& state, cv::Size size) {
@@ -174,6 +188,7 @@ int main(int argc, char** argv) {
     add("strength", Strength);
     add("background", PlainBackground);
     add("background, registered", RegisteredBackground);
+    add("reference of 32 places", Reference);
     add("blend", Blend);
   }
   benchmark::Initialize(&argc, argv);
