@@ -52,6 +52,10 @@ cv::Mat MovingObjects(const cv::Mat& distance, double threshold, const cv::Mat& 
   return filled;
 }
 
+cv::Mat Holding(const cv::Mat& mask, const cv::Mat& places, int least_px) {
+  return Groups(mask, places & mask, [&](int, int held) { return held >= least_px; });
+}
+
 cv::Mat Persistent(const cv::Mat& mask, const cv::Mat& before, const cv::Mat& after, int reach_px) {
   if (before.empty() && after.empty()) return mask;
   cv::Mat others = cv::Mat::zeros(mask.size(), CV_8UC1);
@@ -59,7 +63,7 @@ cv::Mat Persistent(const cv::Mat& mask, const cv::Mat& before, const cv::Mat& af
   if (!after.empty()) others |= after;
   const int side = 2 * reach_px + 1;
   cv::dilate(others, others, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
-  return Groups(mask, others & mask, [](int, int met) { return met > 0; });
+  return Holding(mask, others, 1);
 }
 
 }  // namespace shimmer::restore

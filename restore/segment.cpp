@@ -13,12 +13,16 @@
 namespace shimmer::restore {
 namespace {
 
-constexpr int kMoverGuard_px = 4;  // around what the flow sees to move
+constexpr int kMoverGuard_px = 2;  // around what the flow sees to move
 // What moves on is faster than what is typical of the video, which turbulence makes: by so much, and
 // somewhere by so much. Below kLeastSpeed_px a frame nothing is.
 constexpr double kMoving = 4, kSurelyMoving = 7, kLeastSpeed_px = 0.03;
 constexpr double kMostSpeed_px = 16;
-constexpr double kUnvisited = 2;  // times the threshold where the flow sees nothing move in all of the video
+// What is this far from all that the flow ever saw move may be too fast for it. It has to be surer, by this
+// factor of the threshold, in so many pixels: less is the air's doing, such as glints on fine texture.
+constexpr int kMoverReach_px = 16;
+constexpr double kUnseen = 2;
+constexpr int kLeastUnseen_px = 80;
 // Of the frame's longer side: where all that passes goes that far during the video, no one thing hides a
 // pixel for most of it.
 constexpr double kFarTravel = 0.18;
@@ -75,11 +79,16 @@ cv::Mat OutsideOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& 
 }
 
 // Objects are blurred: they end where that part of what is seen of them near by is left.
-cv::Mat ObjectsOf(const StillScene& scene, const cv::Mat& level, const cv::Mat& outside) {
-  const cv::Mat sure = DistanceTo(scene.wide, level) > scene.threshold;
+cv::Mat ObjectsOf(const SegmentSettings& settings, const cv::Mat& level, const cv::Mat& outside) {
+  const StillScene& scene = settings.scene;
+  cv::Mat surely = scene.threshold.clone();
+  cv::Mat(surely * kUnseen).copyTo(surely, settings.near_movers == 0);
+  const cv::Mat sure = DistanceTo(scene.wide, level) > surely;
   cv::Mat most;
   cv::dilate(outside, most, Disc(kRim_px));
-  return MovingObjects(outside / cv::max(cv::Mat(kRimPart * most), 1.0), 1, sure, kLeastObject_px);
+  const cv::Mat objects =
+      MovingObjects(outside / cv::max(cv::Mat(kRimPart * most), 1.0), 1, sure, kLeastObject_px);
+  return Holding(objects, settings.near_movers, 1) | Holding(objects, sure, kLeastUnseen_px);
 }
 
 }  // namespace
@@ -123,7 +132,7 @@ void SegmentSurvey::Add(const Place& place, int64_t number) {
 
 SegmentSettings SegmentSurvey::Settings() const {
   if (samples_.empty()) throw std::invalid_argument("survey without a place");
-  SegmentSettings settings{method_, choice_.Settings(), {}, maker_};
+  SegmentSettings settings{method_, choice_.Settings(), {}, {}, maker_};
   if (method_ == SegmentMethod::kAof) return settings;
   std::vector<SceneSample> samples = samples_;
   const double typical = std::max(TypicalSpeed(speeds_, samples), kLeastSpeed_px);
@@ -139,7 +148,7 @@ SegmentSettings SegmentSurvey::Settings() const {
   }
   const int side_px = std::max(travel_px.cols, travel_px.rows);
   settings.scene = FindStillScene(samples, travel_px > kFarTravel * side_px);
-  cv::Mat(settings.scene.threshold * kUnvisited).copyTo(settings.scene.threshold, unvisited);
+  cv::dilate(~unvisited, settings.near_movers, Disc(kMoverReach_px));
   return settings;
 }
 
@@ -147,7 +156,7 @@ cv::Mat MovingAt(const SegmentSettings& settings, const SteadyFrame& frame) {
   if (settings.method == SegmentMethod::kAof) return {};
   const cv::Mat level = LevelFrame(frame.frame);
   cv::Mat moving;
-  cv::resize(ObjectsOf(settings.scene, level, OutsideOf(settings.scene, level, frame.own)), moving,
+  cv::resize(ObjectsOf(settings, level, OutsideOf(settings.scene, level, frame.own)), moving,
              frame.frame.size(), 0, 0, cv::INTER_NEAREST);
   return moving;
 }
@@ -166,7 +175,7 @@ std::optional<cv::Mat> Segmenter::Next(const SteadyFrame& frame) {
     if (level.size() != settings_.scene.picture.size() || level.type() != settings_.scene.picture.type())
       throw std::invalid_argument("frame is of another size or type than those of the survey");
     distances_.push_back(OutsideOf(settings_.scene, level, frame.own));
-    objects_.push_back(ObjectsOf(settings_.scene, level, distances_.back()));
+    objects_.push_back(ObjectsOf(settings_, level, distances_.back()));
     frames_.push_back({{}, frame.own});
   } else {
     if (!frames_.empty() && frames_.back().frame.type() != frame.frame.type())

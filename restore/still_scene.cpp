@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "restore/mask_cleaning.h"
+#include "restore/scene_growth.h"
 #include "restore/scene_threshold.h"
 
 namespace shimmer::restore {
@@ -17,6 +18,7 @@ namespace {
 constexpr int kRadius_px = 1;
 constexpr double kAgreeing = 1.0 / 3, kCalmest = 1.0 / 3;
 constexpr double kInside = 0.5;  // of the pooled threshold: what is nearer to the scene is of it
+constexpr double kAlike = 0.25;  // of it: how far the scene is from its neighbours where nothing is between
 constexpr int kGuard_px = 3;     // around what is outside of the scene: its blurred rim
 constexpr double kSurely = 3;    // standard deviations of the tilt
 constexpr int kMostWide_px = 8;
@@ -142,8 +144,10 @@ StillScene FindStillScene(const std::vector<SceneSample>& samples, const cv::Mat
   cv::Mat known = scene.known.clone();
   Continue(scene);
 
-  scene.known = AgreedUpon(JudgementOf(scene.picture, samples, known), samples);
-  known &= scene.known;
+  const Judgement first = JudgementOf(scene.picture, samples, known);
+  known &= AgreedUpon(first, samples);
+  GrowScene(scene.picture, known, samples, kAlike * first.pooled);
+  scene.known = known.clone();
   Continue(scene);
 
   const Judgement judgement = JudgementOf(scene.picture, samples, known);

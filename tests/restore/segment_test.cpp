@@ -170,9 +170,8 @@ TEST(Segment, MasksOfLargeFramesAreOfTheirSize) {
   const Video video = Road({1005, 75}, CV_8UC1, 8, true);
   const std::vector<cv::Mat> masks = Masks(video.frames, SegmentMethod::kFused);
   EXPECT_EQ(masks.back().size(), cv::Size(1005, 75));
-  // It was 0.6 and more, before the flow told what moves: a box that goes 125 px a frame is too fast for it.
-  // Its middle frames are found in parts (recall 0.34 to 0.6, precision 0.95), those at the ends as a whole.
-  EXPECT_GT(Iou(masks, video.truth), 0.55);
+  // A box that goes 125 px a frame is too fast for the flow: it is found as what is surely not the scene.
+  EXPECT_GT(Iou(masks, video.truth), 0.6);
 }
 
 TEST(Segment, PlacesAreSpreadOverTheVideo) {
