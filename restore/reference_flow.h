@@ -41,8 +41,8 @@ class ReferenceFlow {
   ReferenceFlow(SceneReference reference, PairFlow flow);
 
   // CV_32FC2, px: reference(p) is seen at frame(p + flow(p)), whose light is brought to the reference's by
-  // smooth factors before. px of weight 0 are set to the reference: what
-  // moves draws none of its surroundings along. Throws std::invalid_argument for a frame of another size.
+  // smooth factors before. px of weight 0 are set to the reference: what moves draws none of its surroundings
+  // along. Throws std::invalid_argument for a frame of another size.
   cv::Mat To(const GreyFrame& frame) const;
 
  private:

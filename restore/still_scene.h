@@ -20,11 +20,10 @@ struct StillScene {
 };
 
 // First the median of each pixel's calmest samples, the movers left out; where no sample is left, or where
-// fewer than a third of them look like it, the picture is continued from around. Then the median of all
-// samples that lie inside of its interval. Throws std::invalid_argument for no samples. The same on any
-// number of threads.
-// passing: CV_8UC1, not 0 where what moves only passes: the samples are used there even if all show something
-// that moves. Empty: nowhere.
+// fewer than a third of them look like it, the picture grows over what looks alike (scene_growth.h), and the
+// rest of it is continued from around. Then the median of all samples that lie inside of its interval. Throws
+// std::invalid_argument for no samples. The same on any number of threads. passing: CV_8UC1, not 0 where what
+// moves only passes: the samples are used there even if all show something that moves. Empty: nowhere.
 StillScene FindStillScene(const std::vector<SceneSample>& samples, const cv::Mat& passing = {});
 
 }  // namespace shimmer::restore

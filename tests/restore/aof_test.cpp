@@ -104,7 +104,7 @@ TEST(Aof, SpeedForgetsTheFramesOwnTilt) {
     else
       flows.push_back(cv::Mat(frame.size(), CV_32FC2, cv::Scalar(3, 0)));
   Known flow(flows);
-  // 3 px aside of all three: of the line through (0, 0) and them the slope is 42 / 133 px a frame, not 3
+  // 3 px aside of all three: of the line through (0, 0) and them the slope is 42 / 140 px a frame, not 3
   // / 4.67.
   EXPECT_NEAR(MotionOf(flow, place).speed.at<float>(9, 9), 42.0 / 140, 3e-3);
 }
