@@ -3,7 +3,7 @@
 #
 #   scripts/setup.sh             what building, the demo and the tests need
 #   scripts/setup.sh --photos    also 36 real photographs (wallpapers), those of configs/photos_*.txt
-#   scripts/setup.sh --training  also what scripts/train/shimmer_dataset.py reads sets with, and PyTorch
+#   scripts/setup.sh --training  also what scripts/train needs: PyTorch, and what reads sets and draws curves
 #   scripts/setup.sh --torch     also libtorch, for restoration by networks: then cmake --preset release -DSHIMMER_TORCH=ON
 #   scripts/setup.sh --all       all of it, with the peers that some tests compare against
 set -euo pipefail
@@ -18,7 +18,7 @@ required=(
   python3
 )
 photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
-training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml)
+training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml python3-matplotlib)
 torch=(libtorch-dev)
 # Peers that single tests use: the noise library that the paper names; readers of what we write, a browser too.
 peers=(python3-noise python3-jsonschema python3-pil chromium fonts-dejavu-core)

@@ -123,6 +123,16 @@ class ShimmerDataset(Dataset):
             pass
         raise ValueError(f"{path}: clip {clip}: its line is no longer where it was; make the data set anew")
 
+    def place(self, index: int) -> tuple[int, int]:
+        """The number of an item's clip, and the first of its frames in the clip."""
+        row, first = self._place(index)
+        return int(self._index[row, 0]), first
+
+    def source(self, index: int) -> str:
+        """What an item's clip was made of: the path of its picture or video, or the name of what is drawn."""
+        source = self.line(index)["source"]
+        return str(source.get("path", source.get("drawn")))
+
     def mask(self, index: int) -> np.ndarray | None:
         """How much of each pixel of an item's steady frames moving things cover: float32 in [0, 1], H x W or T x H x W.
 
