@@ -38,6 +38,16 @@ double LargestError(const cv::Mat& image, const cv::Mat& truth) {
   return largest;
 }
 
+cv::Mat ImageOf(const Tensor& planes) {
+  const int height = static_cast<int>(planes.shape[1]), width = static_cast<int>(planes.shape[2]);
+  cv::Mat image(height, width, CV_32FC3);
+  const float* value = planes.values.data();
+  for (int c = 0; c < 3; ++c)
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) image.at<cv::Vec3f>(y, x)[c] = *value++;
+  return image;
+}
+
 bool SameBytes(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() &&
          std::memcmp(a.data, b.data, a.total() * a.elemSize()) == 0;
@@ -94,6 +104,20 @@ const Case kCases[] = {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, RestormerAgainstTwin, testing::ValuesIn(kCases),
                          [](const auto& info) { return std::string(info.param.name); });
+
+// Weights, an input and PyTorch's output, from tests/restore/data/make_restormer.py.
+TEST(Restormer, GivesWhatPyTorchGives) {
+  for (const char* name : {"restormer_with_bias", "restormer_bias_free"}) {
+    SafeTensors file =
+        ReadSafeTensors(std::string(SHIMMER_SOURCE_DIR) + "/tests/restore/data/" + name + ".safetensors");
+    const Tensor output = file.tensors.at("sample.output");
+    const cv::Mat image = ImageOf(file.tensors.at("sample.input"));
+    cv::Mat truth;
+    ImageOf(output).convertTo(truth, CV_64F);
+    EXPECT_LE(LargestError(Restormer(file).Run(image), truth), kError) << name;
+    EXPECT_GT(LargestError(image, truth), 0.1) << name;
+  }
+}
 
 TEST(Restormer, ReadsItsFile) {
   const SafeTensors file = RandomNetwork(Small(), 3);
