@@ -47,17 +47,19 @@ Convolution::Convolution(const Tensor& weights) {
   }
 }
 
-Panels Convolution::Run(const Panels& image) const {
-  Panels out(rows_[0].Rows(), image.Size());
+Panels Convolution::Run(const Panels& image, Workspace& workspace) const {
+  Panels out(rows_[0].Rows(), image.Size(), workspace);
   const std::vector<RowTile> tiles = RowTiles(image.Size(), 9 * image.PanelStride() * sizeof(float));
-  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) { RunTile(image, tiles[i], out); });
+  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+    workspace.WithScratch([&](Scratch& scratch) { RunTile(image, tiles[i], out, scratch); });
+  });
   return out;
 }
 
-void Convolution::RunTile(const Panels& image, const RowTile& tile, Panels& out) const {
-  Floats taken[3];
-  for (Floats& row : taken) row = MakeFloats(tile.PanelCount() * 3 * image.PanelStride());
-  const auto row_at = [&](int y) { return taken[(y + 3) % 3].get(); };
+void Convolution::RunTile(const Panels& image, const RowTile& tile, Panels& out, Scratch& scratch) const {
+  float* taken[3];
+  for (float*& row : taken) row = scratch.Take(tile.PanelCount() * 3 * image.PanelStride());
+  const auto row_at = [&](int y) { return taken[(y + 3) % 3]; };
   const int height = image.Size().height, px = static_cast<int>(tile.PanelCount()) * kPanelPx;
   for (int y = tile.first_row - 1; y <= tile.end_row; ++y) {
     if (y >= 0 && y < height) TakeColumns(image, y, tile, row_at(y));

@@ -14,10 +14,10 @@ class Convolution {
   explicit Convolution(const Tensor& weights);  // [outputs, inputs, 3, 3]
 
   // Outside the image are zeros.
-  Panels Run(const Panels& image) const;
+  Panels Run(const Panels& image, Workspace& workspace) const;
 
  private:
-  void RunTile(const Panels& image, const struct RowTile& tile, Panels& out) const;
+  void RunTile(const Panels& image, const struct RowTile& tile, Panels& out, Scratch& scratch) const;
 
   std::array<PackedMatrix, 3> rows_;  // of the row above, at and below: [output, column * inputs + input]
 };

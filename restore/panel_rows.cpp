@@ -93,22 +93,31 @@ void DepthwiseRow(const ThreeRows& from, int first, int planes, const float* wei
   }
 }
 
+// Both convolutions of a part of a row, and then the gate: all constants at once have no room in registers.
 void GateRow(const ThreeRows& from, int first, int half, const float* weights, size_t panels, float* out) {
   const Tag d;
+  constexpr size_t kPartPx = 16 * kPanelPx;
+  alignas(64) float gates[kPartPx], values[kPartPx];
   const size_t planes = static_cast<size_t>(half);
-  for (size_t plane = 0; plane < planes; ++plane) {
-    const auto rows = [&](size_t k, size_t of) {
-      return from.rows[k] + of * from.plane_stride + static_cast<size_t>(first);
-    };
-    const Kernel gate(weights + 9 * plane), value(weights + 9 * (plane + planes));
-    for (size_t px = 0; px < panels * kPanelPx; px += kLanes) {
-      const V a = gate(rows(0, plane) + px, rows(1, plane) + px, rows(2, plane) + px);
-      const V b =
-          value(rows(0, plane + planes) + px, rows(1, plane + planes) + px, rows(2, plane + planes) + px);
-      hn::Store(hn::Mul(hn::Mul(a, NormalShare(d, a)), b), d,
-                out + (px / kPanelPx * planes + plane) * kPanelPx + px % kPanelPx);
+  for (size_t plane = 0; plane < planes; ++plane)
+    for (size_t begin = 0; begin < panels * kPanelPx; begin += kPartPx) {
+      const size_t count = std::min(kPartPx, panels * kPanelPx - begin);
+      const auto convolve = [&](size_t of, float* to) HWY_ATTR {
+        const size_t start = of * from.plane_stride + static_cast<size_t>(first) + begin;
+        const float *above = from.rows[0] + start, *here = from.rows[1] + start,
+                    *below = from.rows[2] + start;
+        const Kernel kernel(weights + 9 * of);
+        for (size_t px = 0; px < count; px += kLanes)
+          hn::Store(kernel(above + px, here + px, below + px), d, to + px);
+      };
+      convolve(plane, gates);
+      convolve(plane + planes, values);
+      for (size_t px = 0; px < count; px += kLanes) {
+        const V gate = hn::Load(d, gates + px);
+        hn::Store(hn::Mul(hn::Mul(gate, NormalShare(d, gate)), hn::Load(d, values + px)), d,
+                  out + ((begin + px) / kPanelPx * planes + plane) * kPanelPx + px % kPanelPx);
+      }
     }
-  }
 }
 
 // Products of three channels and four over all px stay in registers.

@@ -18,8 +18,8 @@ int RoundedUp(int value, int multiple) { return (value + multiple - 1) / multipl
 
 }  // namespace
 
-Panels Unshuffled(const Panels& image) {
-  Panels to(4 * image.Channels(), {image.Size().width / 2, image.Size().height / 2});
+Panels Unshuffled(const Panels& image, Workspace& workspace) {
+  Panels to(4 * image.Channels(), {image.Size().width / 2, image.Size().height / 2}, workspace);
   tbb::parallel_for(0, to.Size().height, [&](int y) {
     for (int j = 0; j < 2; ++j)
       for (size_t panel = 0; panel < image.RowPanels(); ++panel) {
@@ -63,9 +63,9 @@ void CopyChannels(const Panels& from, int first, Panels& to) {
   });
 }
 
-Panels UnshuffledImage(const cv::Mat& image, int u, int multiple_px) {
+Panels UnshuffledImage(const cv::Mat& image, int u, int multiple_px, Workspace& workspace) {
   const cv::Size padded(RoundedUp(image.cols, multiple_px), RoundedUp(image.rows, multiple_px));
-  Panels to(3 * u * u, padded / u);
+  Panels to(3 * u * u, padded / u, workspace);
   tbb::parallel_for(0, to.Size().height, [&](int y) {
     for (int j = 0; j < u; ++j) {
       const cv::Vec3f* from = image.ptr<cv::Vec3f>(Reflected(u * y + j, image.rows));

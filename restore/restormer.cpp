@@ -17,10 +17,10 @@ using Blocks = std::vector<RestormerBlock>;
 
 constexpr double kSampleError = 1e-4;  // samples are recorded by other programs, maybe on other machines
 
-Panels RunBlocks(const Blocks& blocks, Panels x) {
+Panels RunBlocks(const Blocks& blocks, Panels x, Workspace& workspace) {
   if (blocks.empty()) return x;
-  Panels spare_a(x.Channels(), x.Size()), spare_b(x.Channels(), x.Size());
-  for (const RestormerBlock& block : blocks) block.Run(x, spare_a, spare_b);
+  Panels spare_a(x.Channels(), x.Size(), workspace), spare_b(x.Channels(), x.Size(), workspace);
+  for (const RestormerBlock& block : blocks) block.Run(x, spare_a, spare_b, workspace);
   return x;
 }
 
@@ -28,8 +28,8 @@ Panels RunBlocks(const Blocks& blocks, Panels x) {
 struct Reduction {
   PackedMatrix first, second;
 
-  Panels Run(const Panels& a, const Panels& b) const {
-    Panels out(first.Rows(), a.Size());
+  Panels Run(const Panels& a, const Panels& b, Workspace& workspace) const {
+    Panels out(first.Rows(), a.Size(), workspace);
     tbb::parallel_for(0, a.Size().height, [&](int y) {
       const RowPlace to{out.At(y, 0), out.PanelStride(), kPanelPx};
       Multiply(first, a.At(y, 0), 0, a.Size().width, to);
@@ -52,6 +52,7 @@ struct Restormer::Network {
   Convolution embed, output;
   std::vector<Level> levels;
   Blocks refinement;
+  mutable Workspace workspace;
 
   explicit Network(const SafeTensors& file) : card(ReadModelCard(file)) {
     const RestormerShape& shape = card.shape;
@@ -88,21 +89,21 @@ struct Restormer::Network {
   }
 
   // What comes out of level l's decoder, of what comes into its encoder; the bottom has no decoder.
-  Panels RunLevel(size_t l, Panels x) const {
+  Panels RunLevel(size_t l, Panels x, Workspace& workspace) const {
     const Level& level = levels[l];
-    x = RunBlocks(level.encoder, std::move(x));
+    x = RunBlocks(level.encoder, std::move(x), workspace);
     if (l + 1 == levels.size()) return x;
-    Panels below = Unshuffled(level.down.Run(x));
-    below = level.up.Run(RunLevel(l + 1, std::move(below)));
-    Panels up(l == 0 ? 2 * x.Channels() : x.Channels(), x.Size());
+    Panels below = Unshuffled(level.down.Run(x, workspace), workspace);
+    below = level.up.Run(RunLevel(l + 1, std::move(below), workspace), workspace);
+    Panels up(l == 0 ? 2 * x.Channels() : x.Channels(), x.Size(), workspace);
     Shuffle(below, up);
     if (l == 0)
       CopyChannels(x, x.Channels(), up);
     else
-      up = level.reduce.Run(up, x);
-    x = {};  // the memory of both is wanted
-    below = {};
-    return RunBlocks(level.decoder, std::move(up));
+      up = level.reduce.Run(up, x, workspace);
+    x.Free();
+    below.Free();
+    return RunBlocks(level.decoder, std::move(up), workspace);
   }
 };
 
@@ -122,9 +123,11 @@ cv::Mat Restormer::Run(const cv::Mat& image) const {
                                 (image.empty() ? "empty" : cv::typeToString(image.type())) +
                                 ", must be CV_32FC3 of 1x1 px or more");
   const RestormerShape& shape = network_->card.shape;
-  Panels x = network_->embed.Run(UnshuffledImage(image, shape.unshuffle, shape.SizeMultiple()));
-  x = RunBlocks(network_->refinement, network_->RunLevel(0, std::move(x)));
-  return ChangedImage(image, network_->output.Run(x), shape.unshuffle);
+  Workspace& workspace = network_->workspace;
+  Panels x = UnshuffledImage(image, shape.unshuffle, shape.SizeMultiple(), workspace);
+  x = network_->RunLevel(0, network_->embed.Run(x, workspace), workspace);
+  x = RunBlocks(network_->refinement, std::move(x), workspace);
+  return ChangedImage(image, network_->output.Run(x, workspace), shape.unshuffle);
 }
 
 void Restormer::CheckSample(const SafeTensors& file) const {

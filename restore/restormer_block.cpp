@@ -15,10 +15,10 @@ constexpr size_t kBatchPx = 512;  // q and k of about so many px are multiplied 
 // panel on either side. What is outside the image is zero.
 class ExpandedRows {
  public:
-  ExpandedRows(const RowTile& tile, cv::Size image, int planes)
+  ExpandedRows(const RowTile& tile, cv::Size image, int planes, Scratch& scratch)
       : tile_(tile), image_(image), planes_(static_cast<size_t>(planes)) {
     stride_ = (tile.PanelCount() + 2) * kPanelPx;
-    for (Floats& row : rows_) row = MakeFloats(planes_ * stride_);
+    for (float*& row : rows_) row = scratch.Take(planes_ * stride_);
   }
 
   // Px [Begin(), End()) are those that the tile's own need, counted from the panel before the tile's first.
@@ -43,12 +43,12 @@ class ExpandedRows {
 
  private:
   int Width() const { return image_.width - static_cast<int>(tile_.first_panel) * kPanelPx; }
-  float* At(int y) { return rows_[(y + 3) % 3].get(); }
+  float* At(int y) { return rows_[(y + 3) % 3]; }
 
   RowTile tile_;
   cv::Size image_;
   size_t planes_, stride_;
-  Floats rows_[3];
+  float* rows_[3];
 };
 
 }  // namespace
@@ -82,24 +82,29 @@ RestormerBlock::RestormerBlock(const SafeTensors& file, const std::string& name,
   feed_depthwise_ = tensor("feed_forward.depthwise.weight").values;
 }
 
-void RestormerBlock::Run(Panels& x, Panels& spare_a, Panels& spare_b) const {
-  const PackedMatrix attention = AttendAll(x, spare_a);
+void RestormerBlock::Run(Panels& x, Panels& spare_a, Panels& spare_b, Workspace& workspace) const {
+  const PackedMatrix attention = AttendAll(x, spare_a, workspace);
   const std::vector<RowTile> tiles =
       RowTiles(x.Size(), 3 * kPanelPx * sizeof(float) * static_cast<size_t>(project_in_.Rows()));
-  tbb::parallel_for(size_t{0}, tiles.size(),
-                    [&](size_t i) { FeedTile(x, spare_a, attention, tiles[i], spare_b); });
+  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+    workspace.WithScratch(
+        [&](Scratch& scratch) { FeedTile(x, spare_a, attention, tiles[i], spare_b, scratch); });
+  });
   std::swap(x, spare_b);
 }
 
-PackedMatrix RestormerBlock::AttendAll(const Panels& x, Panels& v) const {
+PackedMatrix RestormerBlock::AttendAll(const Panels& x, Panels& v, Workspace& workspace) const {
   const std::vector<RowTile> tiles =
       RowTiles(x.Size(), 3 * kPanelPx * sizeof(float) * static_cast<size_t>(qkv_.Rows()));
   std::vector<Sums> sums(tiles.size());
-  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) { AttendTile(x, tiles[i], v, sums[i]); });
+  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+    workspace.WithScratch([&](Scratch& scratch) { AttendTile(x, tiles[i], v, sums[i], scratch); });
+  });
   return Attention(sums);
 }
 
-void RestormerBlock::AttendTile(const Panels& x, const RowTile& tile, Panels& v, Sums& sums) const {
+void RestormerBlock::AttendTile(const Panels& x, const RowTile& tile, Panels& v, Sums& sums,
+                                Scratch& scratch) const {
   const int channels = Channels(), head = HeadChannels(), heads = channels / head;
   const size_t count = static_cast<size_t>(channels), panels = tile.PanelCount(), row_px = panels * kPanelPx;
   sums.products.assign(count * static_cast<size_t>(head), 0);
@@ -108,13 +113,13 @@ void RestormerBlock::AttendTile(const Panels& x, const RowTile& tile, Panels& v,
   const size_t batch_rows =
       std::clamp<size_t>(kBatchPx / row_px, 1, static_cast<size_t>(tile.end_row - tile.first_row));
   const size_t batch_px = batch_rows * row_px;
-  const Floats normed = MakeFloats((panels + 2) * x.PanelStride()), qk = MakeFloats(2 * count * batch_px);
-  ExpandedRows expanded(tile, x.Size(), qkv_.Rows());
+  float *normed = scratch.Take((panels + 2) * x.PanelStride()), *qk = scratch.Take(2 * count * batch_px);
+  ExpandedRows expanded(tile, x.Size(), qkv_.Rows(), scratch);
   // Of the last panel only so many px are inside.
   const size_t inside = std::min(row_px, static_cast<size_t>(x.Size().width) - tile.first_panel * kPanelPx);
 
   const auto add_batch = [&](size_t rows) {
-    float *q = qk.get(), *k = q + count * batch_px;
+    float *q = qk, *k = q + count * batch_px;
     // (rows that were not reached, in a last batch)
     for (size_t plane = 0; plane < 2 * count; ++plane)
       std::fill_n(q + plane * batch_px + rows * row_px, (batch_rows - rows) * row_px, 0.0f);
@@ -133,13 +138,13 @@ void RestormerBlock::AttendTile(const Panels& x, const RowTile& tile, Panels& v,
       expanded.SetOutside(y);
     } else {
       NormaliseRow(x.At(y, static_cast<ptrdiff_t>(tile.first_panel) - 1), channels, expanded.Begin(),
-                   expanded.End(), norm1_.Weights(), normed.get());
-      expanded.Expand(y, qkv_, normed.get());
+                   expanded.End(), norm1_.Weights(), normed);
+      expanded.Expand(y, qkv_, normed);
     }
     const int done = y - 1;
     if (done < tile.first_row) continue;
     ThreeRows around = expanded.Around(done);
-    float* batch_row = qk.get() + rows * row_px;
+    float* batch_row = qk + rows * row_px;
     DepthwiseRow(around, kPanelPx, 2 * channels, qkv_depthwise_.data(), panels,
                  {batch_row, kPanelPx, batch_px});
     if (inside < row_px)
@@ -191,32 +196,32 @@ PackedMatrix RestormerBlock::Attention(const std::vector<Sums>& tiles) const {
 }
 
 void RestormerBlock::FeedTile(const Panels& x, const Panels& v, const PackedMatrix& attention,
-                              const RowTile& tile, Panels& out) const {
+                              const RowTile& tile, Panels& out, Scratch& scratch) const {
   const int channels = Channels(), hidden = project_out_.Columns();
   const ptrdiff_t first_panel = static_cast<ptrdiff_t>(tile.first_panel);
   const size_t panels = tile.PanelCount(), stride = x.PanelStride();
-  const Floats normed = MakeFloats((panels + 2) * stride);
-  const Floats gated = MakeFloats(panels * static_cast<size_t>(hidden) * kPanelPx);
-  const Floats attended[2] = {MakeFloats((panels + 2) * stride),
-                              MakeFloats((panels + 2) * stride)};  // x + attention
-  ExpandedRows expanded(tile, x.Size(), project_in_.Rows());
+  float *normed = scratch.Take((panels + 2) * stride),
+        *gated = scratch.Take(panels * static_cast<size_t>(hidden) * kPanelPx);
+  float* const attended[] = {scratch.Take((panels + 2) * stride),
+                             scratch.Take((panels + 2) * stride)};  // x + attention
+  ExpandedRows expanded(tile, x.Size(), project_in_.Rows(), scratch);
   const int tile_px = std::min(static_cast<int>(panels) * kPanelPx,
                                x.Size().width - static_cast<int>(first_panel) * kPanelPx);
   for (int y = tile.first_row - 1; y <= tile.end_row; ++y) {
     if (y < 0 || y >= x.Size().height) {
       expanded.SetOutside(y);
     } else {
-      float* row = attended[y & 1].get();
+      float* row = attended[y & 1];
       Multiply(attention, v.At(y, first_panel - 1), expanded.Begin(), expanded.End(), {row, stride, kPanelPx},
                x.At(y, first_panel - 1));
-      NormaliseRow(row, channels, expanded.Begin(), expanded.End(), norm2_.Weights(), normed.get());
-      expanded.Expand(y, project_in_, normed.get());
+      NormaliseRow(row, channels, expanded.Begin(), expanded.End(), norm2_.Weights(), normed);
+      expanded.Expand(y, project_in_, normed);
     }
     const int done = y - 1;
     if (done < tile.first_row) continue;
-    GateRow(expanded.Around(done), kPanelPx, hidden, feed_depthwise_.data(), panels, gated.get());
-    Multiply(project_out_, gated.get(), 0, tile_px, {out.At(done, first_panel), stride, kPanelPx},
-             attended[done & 1].get() + stride);
+    GateRow(expanded.Around(done), kPanelPx, hidden, feed_depthwise_.data(), panels, gated);
+    Multiply(project_out_, gated, 0, tile_px, {out.At(done, first_panel), stride, kPanelPx},
+             attended[done & 1] + stride);
   }
 }
 

@@ -21,7 +21,7 @@ class RestormerBlock {
   int Channels() const { return project_in_.Columns(); }
 
   // x becomes what comes out. spare_a and spare_b are as large as x; what they hold then is not specified.
-  void Run(Panels& x, Panels& spare_a, Panels& spare_b) const;
+  void Run(Panels& x, Panels& spare_a, Panels& spare_b, Workspace& workspace) const;
 
  private:
   struct Norm {
@@ -30,11 +30,12 @@ class RestormerBlock {
   };
   struct Sums;  // over px: products of q and k, squares of both
 
-  PackedMatrix AttendAll(const Panels& x, Panels& v) const;  // what v is multiplied with: softmax and project
-  void AttendTile(const Panels& x, const struct RowTile& tile, Panels& v, Sums& sums) const;
+  PackedMatrix AttendAll(const Panels& x, Panels& v,
+                         Workspace& workspace) const;  // what v is multiplied with: softmax and project
+  void AttendTile(const Panels& x, const struct RowTile& tile, Panels& v, Sums& sums, Scratch& scratch) const;
   PackedMatrix Attention(const std::vector<Sums>& tiles) const;
   void FeedTile(const Panels& x, const Panels& v, const PackedMatrix& attention, const RowTile& tile,
-                Panels& out) const;
+                Panels& out, Scratch& scratch) const;
   int HeadChannels() const { return Channels() / static_cast<int>(temperature_.size()); }
 
   Norm norm1_, norm2_;

@@ -19,8 +19,8 @@ struct RowTile {
 // which is computed again, so that tiles are tall, and as wide as a sweep that keeps panel_bytes a panel has
 // room for in the cache.
 inline std::vector<RowTile> RowTiles(cv::Size size, size_t panel_bytes) {
-  constexpr size_t kCacheBytes = 400'000, kLeastPanels = 8;
-  constexpr int kLeastRows = 8, kMostRows = 32, kStrips = 8;
+  constexpr size_t kCacheBytes = 500'000, kLeastPanels = 8;
+  constexpr int kLeastRows = 8, kMostRows = 64, kStrips = 8;
   const size_t panels = PanelsFor(size.width), fit = std::max(kLeastPanels, kCacheBytes / panel_bytes);
   const size_t columns = (panels + fit - 1) / fit;
   const int rows = std::clamp(size.height / kStrips, kLeastRows, kMostRows);
