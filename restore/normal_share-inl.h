@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace shimmer::restore::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Phi(x) = (1 + erf(x / sqrt(2))) / 2, off by 1e-7 at most.
+// Phi(x) = (1 + erf(x / sqrt(2))) / 2, off by 1.1e-7 at most.
 //
 // With a = |x|: Phi(-a) = 2^(a s(a) - 1), s a polynomial fitted to log2(2 Phi(-a)) / a on [0, 5.6] so that
 // the largest error of Phi(-a) is the least (8e-9); 2^f by a polynomial on [-1/2, 1/2], off by 2e-9 of it,

@@ -39,7 +39,7 @@ void AddProducts(const float* q, const float* k, int channels, size_t count, dou
 // squares[i] += sum over px of values_i^2, [channel][count px].
 void AddSquares(const float* values, int channels, size_t count, double* squares);
 
-// Phi(x) of each, off by 1e-7 at most: what GateRow takes.
+// Phi(x) of each, off by 1.1e-7 at most: what GateRow takes.
 void NormalShares(std::span<const float> x, float* out);
 
 }  // namespace shimmer::restore

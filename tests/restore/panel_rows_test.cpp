@@ -179,8 +179,8 @@ TEST(PanelRows, NormalShareIsWithinItsError) {
       largest_gelu =
           std::max(largest_gelu, std::abs(value * share - GeluOf(value)) / std::max(1.0, std::abs(value)));
     }
-    EXPECT_LE(largest, 1e-7);
-    EXPECT_LE(largest_gelu, 1e-7);
+    EXPECT_LE(largest, 1.1e-7);  // as panel_rows.h says; 1.02e-7 where there is no fused multiply-add
+    EXPECT_LE(largest_gelu, 1.1e-7);
   });
 }
 
