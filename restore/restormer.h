@@ -16,7 +16,7 @@ namespace shimmer::restore {
 //
 // Exact: floats all along, without any shortcut. What comes out is off by 2e-6 at most from what PyTorch
 // computes in floats with the same weights, or a program in doubles, for networks of ten or so blocks;
-// rounding grows with the depth, to 2.4e-6 for the paper's network of 44 blocks with random weights
+// rounding grows with the depth, to 3e-6 for the paper's network of 44 blocks with random weights
 // (bench_sharpen).
 class Restormer {
  public:

@@ -155,7 +155,7 @@ def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent
     torch.set_num_threads(1)
     make(folder / "restormer_with_bias.safetensors",
-         {"width": 8, "blocks": [1, 1, 1], "heads": [1, 2, 4], "refinement": 0, "expansion": 1.4, "norm": "with_bias",
+         {"width": 8, "blocks": [1, 1, 1], "heads": [1, 2, 4], "refinement": 0, "expansion": 1.3, "norm": "with_bias",
           "unshuffle": 1}, (21, 26), False, 1)
     make(folder / "restormer_bias_free.safetensors",
          {"width": 14, "blocks": [1, 2], "heads": [2, 4], "refinement": 1, "expansion": 2.66, "norm": "bias_free",
