@@ -117,6 +117,18 @@ TEST_F(Programs, PngMeasuresEveryWriterOnEveryKindOfFrame) {
   }
 }
 
+TEST_F(Programs, SharpenMeasuresEveryNetwork) {
+  const Ran ran = Run(SHIMMER_BENCH_SHARPEN, "--quick --json sharpen.json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.text;
+  const Json json = Read("sharpen.json");
+  ASSERT_EQ(json.size(), 4u);
+  for (const Json& row : json) {
+    ExpectTime(row["ms"]);
+    EXPECT_GT(row["multiply_adds"], 0) << row;
+    EXPECT_LE(row["error"], 5e-6) << row;  // of the largest network; those of restormer_test.cpp have 2e-6
+  }
+}
+
 TEST_F(Programs, BadArgumentsAreRefusedInALine) {
   for (const std::string program : {SHIMMER_BENCH_STEP, SHIMMER_BENCH_ACCURACY, SHIMMER_BENCH_PNG}) {
     EXPECT_NE(Run(program, "--quick --nonsense").exit_code, 0);
@@ -127,6 +139,7 @@ TEST_F(Programs, BadArgumentsAreRefusedInALine) {
   EXPECT_NE(Run(SHIMMER_BENCH_STEP, "--only nothing").exit_code, 0);
   EXPECT_EQ(Run(SHIMMER_BENCH_STEP, "--quick --only sizes --json no/such/folder.json").exit_code, 1);
   EXPECT_EQ(Run(SHIMMER_BENCH_PNG, "--quick --json no/such/folder.json").exit_code, 1);
+  EXPECT_EQ(Run(SHIMMER_BENCH_SHARPEN, "--quick --json no/such/folder.json").exit_code, 1);
   EXPECT_EQ(Run(SHIMMER_BENCH_ACCURACY, "--quick --out no/such/folder").exit_code, 1);
 }
 
