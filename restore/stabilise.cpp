@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -28,6 +29,20 @@ constexpr double kLeastAgreeing = 0.72;
 
 constexpr int kLeastScene = 8;  // frames
 
+// A frame of a scene that has next to no detail may match nothing, and be the same scene all the same: its means of
+// 16x16 parts tell. Those of other scenes correlate by 0.8 at most where one has a bright sky as well.
+constexpr int kParts = 16;
+constexpr double kSameParts = 0.97;
+
+// The means of a frame's parts, without their mean, of length 1 (or 0).
+cv::Mat PartsOf(const cv::Mat& grey) {
+  cv::Mat parts;
+  cv::resize(grey, parts, {kParts, kParts}, 0, 0, cv::INTER_AREA);
+  parts.convertTo(parts, CV_64F);
+  parts -= cv::mean(parts);
+  return parts / std::max(cv::norm(parts), 1e-30);
+}
+
 double RangeOf(const cv::Mat& grey, int depth) {
   if (depth == CV_8U) return 255;
   if (depth == CV_16U) return 65535;
@@ -46,6 +61,7 @@ struct Stabiliser::State {
   std::vector<FrameDetail> details = {};    // of those of them that were found
   std::vector<Fit> fits = {};
   cv::Point2d last_px = {};
+  cv::Mat last_parts = {};    // of the last frame that was found
   double first_error_px = 0;  // of the first frame found, against the others; fine px, 0 as long as unknown
 
   FrameShift ShiftOf(const Fit& fit, Match match) const {
@@ -90,14 +106,18 @@ FrameShift Stabiliser::State::Fitted(const cv::Mat& frame, double max_shift_px) 
     // (the mean of the turbulence comes on top, and a peak needs neighbours)
     const int margin = static_cast<int>(std::ceil(max_shift_px / scales.coarse)) + 2;
     alignment.emplace(detail.fine.size(), detail.coarse.size(), ratio, margin);
+    last_parts = PartsOf(grey);
     const Fit first{.fine_px = {}, .correlation = 1, .common = {.shift_px = {}, .agreeing = 1}};
     Use(detail, first);
     return ShiftOf(first, Match::kFound);
   }
   const std::optional<Fit> fit = alignment->Search(detail);
-  if (!fit) return {.px = last_px, .match = Match::kLost};
-  if (fit->correlation < kLeastCorrelation || fit->correlation * fit->clearness < kLeastEvidence)
-    return ShiftOf(*fit, Match::kLost);
+  const cv::Mat parts = PartsOf(grey);
+  if (!fit || fit->correlation < kLeastCorrelation || fit->correlation * fit->clearness < kLeastEvidence) {
+    const Match match = parts.dot(last_parts) >= kSameParts ? Match::kFlat : Match::kLost;
+    return fit ? ShiftOf(*fit, match) : FrameShift{.px = last_px, .match = match};
+  }
+  last_parts = parts;
   Use(detail, *fit);
   return ShiftOf(*fit, Match::kFound);
 }

@@ -19,7 +19,7 @@ namespace shimmer::restore {
 
 enum class Match {
   kFound,
-  kFlat,  // nothing is to be seen in the frame: black, or of one colour
+  kFlat,  // too little is to be seen in the frame: black, of one colour, or coarse alone, as in the last found
   kLost,  // the frame shows something else than those before, or is further off than max_shift_px
 };
 

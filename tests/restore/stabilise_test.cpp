@@ -8,6 +8,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/restore/frames.h"
 #include "tests/restore/wave_scene.h"
 
 namespace shimmer::restore {
@@ -291,6 +292,24 @@ TEST(Stabiliser, FramesOfAnotherSceneAreLost) {
       EXPECT_LT(cv::norm(shift.px - truth(lost ? 3 : k)), 0.05) << k;
     }
     EXPECT_EQ(shifts[4].px, shifts[3].px);
+  }
+}
+
+// A slope, and noise over it, which is another in each frame: the same scene still. Were
+// the slope another's, it would be another scene.
+TEST(Stabiliser, FramesAlikeInWhatIsCoarseAreOfOneScene) {
+  const cv::Size size{160, 120};
+  const auto misty = [&](int k) {
+    cv::Mat slope(1, 2, CV_32FC1), frame, detail;
+    slope.at<float>(0) = k == 5 ? 0.7f : 0.3f, slope.at<float>(1) = k == 5 ? 0.3f : 0.7f;
+    cv::resize(slope, frame, size, 0, 0, cv::INTER_LINEAR);
+    Noise(size, CV_32FC1, static_cast<uint32_t>(k)).convertTo(detail, CV_32F, 0.2);
+    return cv::Mat(frame + detail);
+  };
+  const auto shifts = ShiftsOf(8, misty);
+  for (size_t k = 1; k < 8; ++k) {
+    EXPECT_EQ(shifts[k].match, k == 5 ? Match::kLost : Match::kFlat) << k;
+    EXPECT_EQ(shifts[k].px, cv::Point2d()) << k;
   }
 }
 
