@@ -118,24 +118,36 @@ Json Parsed(const std::string& text, const std::string& file) {
   return json;
 }
 
-}  // namespace
-
-ModelCard ReadModelCard(const SafeTensors& file) {
+Json JsonOf(const SafeTensors& file) {
   const auto text = file.metadata.find("card");
   if (text == file.metadata.end())
     throw std::runtime_error(file.file + ": has no model card, which __metadata__'s \"card\" must be");
-  const Json json = Parsed(text->second, file.file);
+  return Parsed(text->second, file.file);
+}
+
+}  // namespace
+
+TileCard ReadTileCard(const SafeTensors& file) {
+  const Json json = JsonOf(file);
   const Card card(json, file.file);
   card.Whole("format", 1, 1);
-  card.OneOf("network", {"restormer"});
-  ModelCard read;
-  read.text = text->second;
+  TileCard read;
+  read.text = file.metadata.at("card");
   const Json& name = card.At("name", "a text");
   if (!name.is_string() || name.get<std::string>().empty()) card.Refuse("name", name, "a text");
   read.name = name.get<std::string>();
-  read.shape = ShapeOf(card);
   read.tile_px = card.Whole("tile", 16, 16384);
   read.overlap_px = card.Whole("overlap", 0, (read.tile_px - 1) / 2);
+  return read;
+}
+
+ModelCard ReadModelCard(const SafeTensors& file) {
+  const Json json = JsonOf(file);
+  const Card card(json, file.file);
+  card.OneOf("network", {"restormer"});
+  ModelCard read;
+  read.shape = ShapeOf(card);
+  static_cast<TileCard&>(read) = ReadTileCard(file);
   return read;
 }
 

@@ -29,12 +29,16 @@ struct RestormerShape {
   int SizeMultiple() const { return unshuffle << (Levels() - 1); }  // px: sizes that need no padding
 };
 
-struct ModelCard {
+// What is needed of any network.
+struct TileCard {
   std::string name;
-  RestormerShape shape;
   int tile_px = 256;    // images larger than this are restored in parts, in [16, 16384]
   int overlap_px = 32;  // of neighbouring parts, in [0, tile_px / 2)
   std::string text;     // all of the card, JSON
+};
+
+struct ModelCard : TileCard {
+  RestormerShape shape;
 };
 
 // The card that metadata "card" holds, JSON:
@@ -45,5 +49,8 @@ struct ModelCard {
 //
 // Throws std::runtime_error with the file, the key, its value and what it may be.
 ModelCard ReadModelCard(const SafeTensors& file);
+
+// Of the card "format", "name", "tile" and "overlap" alone: of a network that is built otherwise. Throws as that does.
+TileCard ReadTileCard(const SafeTensors& file);
 
 }  // namespace shimmer::restore

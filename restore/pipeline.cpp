@@ -25,11 +25,11 @@ Batch Through(Stage& stage, Batch batch) {
 
 }  // namespace
 
-void Restore(Frames& video, const VideoFacts& facts, const RestorePlan& plan,
+void Restore(Frames& video, const VideoFacts& facts, const RestorePlan& plan, Sharpener* sharpener,
              const std::function<void(const FrameOnWay&)>& sink) {
   constexpr size_t kBatchesAtOnce = 4;
   constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
-  const std::vector<std::unique_ptr<Stage>> stages = StagesOf(plan, facts);
+  const std::vector<std::unique_ptr<Stage>> stages = StagesOf(plan, facts, sharpener);
   int64_t next = 0;
   auto way = tbb::make_filter<void, Batch>(kInOrder, [&](tbb::flow_control& control) -> Batch {
     if (next == facts.frames) {

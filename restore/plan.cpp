@@ -74,13 +74,15 @@ constexpr double kMostMoving = 0.5;  // share of the picture
 // StrengthEstimate finds no more than 3.1 px in clips of Shimmer's of 4.9 px.
 constexpr double kMostOfTilt = 2, kLeastMotion_px = 2.5, kMostTilt_px = 6;
 
+double TiltOf(const SceneFacts& scene) { return std::sqrt(scene.strength.tilt_variance_px2); }
+
 // How most of the picture moves, other than by turbulence; nothing where it does not.
 std::string MotionEverywhere(const SceneFacts& scene, cv::Size size) {
   if (scene.segment.method == SegmentMethod::kFused && scene.moving_share > kMostMoving)
     return "more than half of the picture moves";
   const double scale = std::max(size.width, size.height) > kLargeSide_px ? 2 : 1;
   const double motion_px = scale * scene.segment.aof.typical_px,
-               tilt_px = std::sqrt(scene.strength.tilt_variance_px2);
+               tilt_px = TiltOf(scene);
   const bool moves_on = motion_px > std::max(kLeastMotion_px, kMostOfTilt * tilt_px);
   if (!moves_on && tilt_px <= kMostTilt_px) return {};
   return "most of the picture moves on by more than turbulence does (" + Px(std::max(motion_px, tilt_px)) +
@@ -101,7 +103,7 @@ void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan
     plan.skipped.push_back(all + "no still scene with texture is found to tell the turbulence by");
     return;
   }
-  const double tilt_px = std::sqrt(facts.scene->strength.tilt_variance_px2);
+  const double tilt_px = TiltOf(*facts.scene);
   if (tilt_px < kLeastTilt_px) {
     plan.skipped.push_back(all + "the turbulence is too weak to need them (a tilt of " + Px(tilt_px) + ")");
     return;
@@ -116,7 +118,32 @@ void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan
                            (params.segment ? "nothing moves" : "they are switched off"));
 }
 
+bool IsTooWeak(const VideoFacts& facts) {
+  return facts.scene && facts.scene->strength.texture > 0 && TiltOf(*facts.scene) < kLeastTilt_px;
+}
+
+// Last, as the area is known by then. What the air does not move it hardly blurs: the network, which has seen
+// nothing else, would take the scene's own softness for the air's.
+void PlanSharpening(const VideoFacts& facts, const RestoreParams& params, RestorePlan& plan) {
+  if (!params.sharpen || IsTooWeak(facts)) {
+    plan.skipped.push_back(std::string("sharpening: ") +
+                           (params.sharpen ? "the turbulence is too weak to need it" : "it is switched off"));
+    return;
+  }
+  RequireTile(*params.sharpen, SharpenedSize(plan));
+  plan.sharpen = params.sharpen;
+}
+
+// What is not done to a video that has no scene to stack.
+std::string AllStages(const RestoreParams& params) {
+  return params.sharpen ? "everything but sharpening: " : "everything: ";
+}
+
 }  // namespace
+
+cv::Size SharpenedSize(const RestorePlan& plan) {
+  return plan.area.size() != plan.size ? plan.area.size() : plan.picture.size();
+}
 
 bool HasOneScene(const VideoFacts& facts, const RestoreParams& params) {
   return !facts.alike && (!params.stabilise || (AreOfOneScene(facts.shifts) && !LastingCut(facts.shifts)));
@@ -133,20 +160,26 @@ RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params) {
   const auto skip = [&](const std::string& line) { plan.skipped.push_back(line); };
   if (plan.grey && CV_MAT_CN(facts.type) == 3) skip("two of three channels: they are equal everywhere");
   if (plan.alike) {
-    skip(facts.frames == 1 ? "everything: there is one frame, and nothing to compare it with"
-                           : "everything: all frames are the same");
+    if (facts.frames > 1) {
+      skip("everything: all frames are the same");
+      return plan;
+    }
+    skip(AllStages(params) + "there is one frame, and nothing to compare it with");
+    PlanSharpening(facts, params, plan);
     return plan;
   }
   if (params.stabilise) RequireNoCut(facts);
   if (!HasOneScene(facts, params)) {
     const auto lost = std::ranges::count(facts.shifts, Match::kLost, &FrameShift::match);
-    skip("everything: " + std::to_string(lost) +
+    skip(AllStages(params) + std::to_string(lost) +
          " frames show something else than those before, as the "
          "camera goes too far, or everything moves");
+    PlanSharpening(facts, params, plan);
     return plan;
   }
   PlanSteadying(facts, params, plan);
   PlanScene(facts, params, plan);
+  PlanSharpening(facts, params, plan);
   return plan;
 }
 

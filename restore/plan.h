@@ -9,6 +9,7 @@
 
 #include "restore/background.h"
 #include "restore/look.h"
+#include "restore/sharpening_network.h"
 
 namespace shimmer::restore {
 
@@ -22,6 +23,7 @@ struct RestoreParams {
   SegmentMethod method = SegmentMethod::kFused;
   bool stack = true;  // false: the turbulence stays as it is
   Register registered = Register::kAuto;
+  std::optional<TileSize> sharpen = {};  // by a network with such tiles; none: not
 };
 
 struct RestorePlan {
@@ -37,16 +39,20 @@ struct RestorePlan {
   bool stack = false;    // each frame's background is the mean of those around it
   int ahead = 0;         // of them on either side
   bool registered = false;                // to one another before that
+  std::optional<TileSize> sharpen = {};   // by a network, in tiles
   std::vector<std::string> skipped = {};  // a line for each stage that is left out, and why
 
   friend bool operator==(const RestorePlan&, const RestorePlan&) = default;
 };
 
+// Of the frames that sharpening gets: cut, and without the bars that never change.
+cv::Size SharpenedSize(const RestorePlan& plan);
+
 // Whether there is a still scene to look at (LookAtScene): not where nothing changes, and not where a camera
 // that is to be followed shows no one scene.
 bool HasOneScene(const VideoFacts& facts, const RestoreParams& params);
 
-// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see, and for a video that
+// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see, as RequireTile does, and for a video that
 // goes over to another scene (LastingCut), unless its camera is taken to have stood.
 RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params);
 

@@ -7,7 +7,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace shimmer::restore {
 namespace {
@@ -25,10 +27,10 @@ struct Place {  // of a tensor, in bytes after the header
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file)
-      : file_(file.string()), stream_(file, std::ios::binary | std::ios::ate) {
+  Reader(std::string file, std::istream& stream) : file_(std::move(file)), stream_(stream) {
+    stream_.seekg(0, std::ios::end);
     const std::streamoff size = stream_ ? static_cast<std::streamoff>(stream_.tellg()) : -1;
-    if (size < 0 || std::filesystem::is_directory(file)) Refuse("cannot be read");
+    if (size < 0 || std::filesystem::is_directory(file_)) Refuse("cannot be read");
     size_ = static_cast<uint64_t>(size);
   }
 
@@ -185,7 +187,7 @@ class Reader {
   }
 
   std::string file_;
-  std::ifstream stream_;
+  std::istream& stream_;
   uint64_t size_ = 0, data_ = 0;  // bytes of the file, and where its tensors begin
 };
 
@@ -197,6 +199,14 @@ std::string ShapeText(const std::vector<int64_t>& shape) {
   return "[" + text + "]";
 }
 
-SafeTensors ReadSafeTensors(const std::filesystem::path& file) { return Reader(file).Read(); }
+SafeTensors ReadSafeTensors(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return Reader(file.string(), stream).Read();
+}
+
+SafeTensors ReadSafeTensors(const std::string& bytes, const std::string& name) {
+  std::istringstream stream(bytes);
+  return Reader(name, stream).Read();
+}
 
 }  // namespace shimmer::restore

@@ -33,5 +33,7 @@ struct SafeTensors {
 // bytes between them or lie outside, another dtype, a size that is not the shape's, or a value that is not
 // finite.
 SafeTensors ReadSafeTensors(const std::filesystem::path& file);
+// The same of a file's bytes, which messages call `name`.
+SafeTensors ReadSafeTensors(const std::string& bytes, const std::string& name);
 
 }  // namespace shimmer::restore

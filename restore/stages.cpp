@@ -45,7 +45,8 @@ class Move : public Stage {
   const std::vector<FrameShift>& shifts_;
 };
 
-// Cut to what all frames see, once nothing else is to be done: all stages work on frames of one size.
+// Cut to what all frames see, once only px by themselves are left to be made better: the stages before work on
+// frames of one size.
 class Cut : public Stage {
  public:
   explicit Cut(cv::Rect area) : area_(area) {}
@@ -216,9 +217,25 @@ class Blend : public Stage {
   std::vector<FrameOnWay> Rest() override { return {}; }
 };
 
+class Sharpen : public Stage {
+ public:
+  explicit Sharpen(Sharpener& sharpener) : sharpener_(sharpener) {}
+
+  std::vector<FrameOnWay> Next(FrameOnWay frame) override {
+    frame.blended = frame.frame;
+    frame.frame = sharpener_.Next(frame.frame);
+    return {frame};
+  }
+  std::vector<FrameOnWay> Rest() override { return {}; }
+
+ private:
+  Sharpener& sharpener_;
+};
+
 }  // namespace
 
-std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const VideoFacts& facts) {
+std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const VideoFacts& facts,
+                                             Sharpener* sharpener) {
   std::vector<std::unique_ptr<Stage>> stages;
   if (plan.grey) stages.push_back(std::make_unique<OneChannel>());
   if (plan.fill)
@@ -233,9 +250,10 @@ std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const Vide
         facts.scene->segment.scene));
     stages.push_back(std::make_unique<Blend>());
   }
-  if (plan.area.size() != plan.size)
-    stages.push_back(std::make_unique<Cut>(plan.area - plan.picture.tl()));
-  else if (plan.picture.size() != plan.size)
+  const bool cut = plan.area.size() != plan.size;
+  if (cut) stages.push_back(std::make_unique<Cut>(plan.area - plan.picture.tl()));
+  if (plan.sharpen) stages.push_back(std::make_unique<Sharpen>(*sharpener));
+  if (!cut && plan.picture.size() != plan.size)
     stages.push_back(std::make_unique<PutBack>(facts.changing.first, plan.picture));
   return stages;
 }

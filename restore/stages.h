@@ -7,6 +7,7 @@
 
 #include "restore/look.h"
 #include "restore/plan.h"
+#include "restore/sharpen.h"
 
 namespace shimmer::restore {
 
@@ -18,6 +19,7 @@ struct FrameOnWay {
   cv::Mat own;        // CV_8UC1: 255 where the frame saw it itself, 0 where it is filled; empty: all its own
   cv::Mat mask = {};  // CV_8UC1: 255 where something moves, between where that is not sure
   cv::Mat background = {};  // the still scene, of the frames around this one
+  cv::Mat blended = {};     // what was sharpened
 };
 
 class Stage {
@@ -28,7 +30,8 @@ class Stage {
   virtual std::vector<FrameOnWay> Rest() = 0;  // after the last
 };
 
-// Those that the plan names, in order.
-std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const VideoFacts& facts);
+// Those that the plan names, in order. sharpener: of frames of SharpenedSize, where the plan sharpens.
+std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const VideoFacts& facts,
+                                             Sharpener* sharpener);
 
 }  // namespace shimmer::restore

@@ -68,6 +68,13 @@ int RunUnshimmer(int argc, const char* const* argv, const std::atomic<bool>& (*l
             {"auto", Register::kAuto}, {"on", Register::kOn}, {"off", Register::kOff}}));
     command.add_flag("!--no-segment", restore.params.segment, "take it that nothing moves");
     command.add_flag("!--no-stack", restore.params.stack, "leave the turbulence as it is: stabilise alone");
+    CLI::Option* no_sharpen =
+        command.add_flag("!--no-sharpen", restore.sharpen, "leave out the network that sharpens");
+    command
+        .add_option("--model", restore.model,
+                    "the network that sharpens: weights in .safetensors, or any in .onnx or, in builds that "
+                    "have TorchScript, .pt (default: the one that unshimmer carries)")
+        ->excludes(no_sharpen);
     AddOpticsOptions(command, restore.optics);
     command.add_option("--threads", restore.threads, "number of threads (default: all)")
         ->check(CLI::Range(1, 4096));

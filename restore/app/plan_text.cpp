@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cli/number_text.h"
+#include "restore/tiles.h"
 
 namespace shimmer::restore::app {
 namespace {
@@ -41,7 +42,7 @@ std::string ShakeText(const VideoFacts& facts) {
     std::ranges::nth_element(scatter_px, scatter_px.begin() + std::ssize(scatter_px) / 2);
     text += "scatter   about " + Decimals(scatter_px[scatter_px.size() / 2]) + " px, of blocks of a frame\n";
   }
-  if (flat > 0) text += cli::Counted(flat, "frame") + " of one colour: they stay where the one before is\n";
+  if (flat > 0) text += cli::Counted(flat, "frame") + " with too little detail to be placed: they stay where the one before is\n";
   if (lost > 0)
     text += cli::Counted(lost, "frame") + " unlike the others: they stay where the one before is\n";
   if (unsure > 0)
@@ -89,9 +90,15 @@ std::string PlanText(const VideoFacts& facts, const RestorePlan& plan, const std
   if (plan.stack)
     stages += ", stack " + cli::Counted(2 * plan.ahead + 1, "frame") +
               (plan.registered ? " registered" : "") + (plan.segment ? ", blend" : "");
+  if (plan.sharpen) stages += ", sharpen";
   if (facts.scene) text += SceneText(*facts.scene);
   text += Cn2Text(facts, plan, optics);
   text += "stages    " + (stages.empty() ? "none" : stages.substr(2)) + "\n";
+  if (plan.sharpen)
+    text += "sharpen   in " +
+            cli::Counted(std::ssize(Tiles(SharpenedSize(plan), plan.sharpen->side_px, plan.sharpen->overlap_px)),
+                         "tile") +
+            ", of which those are left out that are flat or hardly change\n";
   if (plan.area.size() != plan.size)
     text += "area      " + std::to_string(plan.area.width) + "x" + std::to_string(plan.area.height) +
             " px from (" + std::to_string(plan.area.x) + ", " + std::to_string(plan.area.y) + ")\n";
@@ -100,7 +107,7 @@ std::string PlanText(const VideoFacts& facts, const RestorePlan& plan, const std
   return text;
 }
 
-Json PlanJson(const VideoFacts& facts, const RestorePlan& plan) {
+Json PlanJson(const VideoFacts& facts, const RestorePlan& plan, const SharpenCounts& counts) {
   Json shifts = Json::array(), matches = Json::array();
   for (const FrameShift& shift : facts.shifts) {
     shifts.push_back({shift.px.x, shift.px.y});
@@ -119,6 +126,12 @@ Json PlanJson(const VideoFacts& facts, const RestorePlan& plan) {
           {"registered", plan.registered},
           {"tilt_variance_px2", facts.scene ? Json(facts.scene->strength.tilt_variance_px2) : Json()},
           {"moving_share", facts.scene ? Json(facts.scene->moving_share) : Json()},
+          {"sharpen", plan.sharpen ? Json{{"tile_px", plan.sharpen->side_px},
+                                          {"overlap_px", plan.sharpen->overlap_px},
+                                          {"tiles_computed", counts.computed},
+                                          {"tiles_kept", counts.kept},
+                                          {"tiles_flat", counts.flat}}
+                                   : Json()},
           {"skipped", plan.skipped},
           {"shifts_px", std::move(shifts)},
           {"matches", std::move(matches)}};

@@ -3,6 +3,8 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include "cli/command_line.h"
@@ -13,6 +15,7 @@
 #include "restore/app/frame_source.h"
 #include "restore/app/plan_text.h"
 #include "restore/app/stage_files.h"
+#include "restore/open_network.h"
 #include "restore/pipeline.h"
 #include "restore/torch_flow.h"
 
@@ -36,6 +39,18 @@ class FileFrames : public Frames {
   dataset::FrameReader& reader_;
   const std::atomic<bool>& stop_;
 };
+
+// The network that sharpens; none where it is switched off.
+std::shared_ptr<SharpeningNetwork> NetworkOf(const RestoreOptions& options) {
+  if (!options.sharpen) return nullptr;
+  return options.model.empty() ? ShippedNetwork() : OpenNetwork(options.model);
+}
+
+RestorePlan PlanOf(const RestoreOptions& options, const VideoFacts& facts, const SharpeningNetwork* network) {
+  RestoreParams params = options.params;
+  if (network) params.sharpen = network->tile();
+  return PlanRestore(facts, params);
+}
 
 FlowMaker FlowOf(const RestoreOptions& options) {
   if (options.flow == "dis") return DisFlows();
@@ -81,7 +96,7 @@ VideoFacts Look(const RestoreOptions& options, const std::optional<Optics>& opti
 }
 
 void Run(const RestoreOptions& options, const std::optional<Optics>& optics, dataset::FrameReader& reader,
-         const std::atomic<bool>& stop) {
+         const std::shared_ptr<SharpeningNetwork>& network, const std::atomic<bool>& stop) {
   FileFrames file(reader, stop);
   const double frames_per_s = options.frames_per_s.value_or(reader.frames_per_s().value_or(kFramesPerS));
   const std::unique_ptr<FrameSink> out = OpenSink(options.out, frames_per_s);
@@ -90,15 +105,17 @@ void Run(const RestoreOptions& options, const std::optional<Optics>& optics, dat
   const Changing changing = Compare(options, file);
   Inside video(file, changing.area);
   const VideoFacts facts = Look(options, optics, changing, FlowOf(options), video);
-  const RestorePlan plan = PlanRestore(facts, options.params);
+  const RestorePlan plan = PlanOf(options, facts, network.get());
+  std::optional<Sharpener> sharpener;
+  if (plan.sharpen) sharpener.emplace(network, SharpenedSize(plan));
   cli::Progress progress("frames restored", facts.frames, 0, options.quiet);
-  Restore(video, facts, plan, [&](const FrameOnWay& frame) {
+  Restore(video, facts, plan, sharpener ? &*sharpener : nullptr, [&](const FrameOnWay& frame) {
     out->Add(frame.frame);
     if (stages) stages->Add(frame);
     progress.Step();
   });
   progress.End();
-  if (stages) stages->Finish(facts, plan, optics);
+  if (stages) stages->Finish(facts, plan, optics, sharpener ? sharpener->counts() : SharpenCounts());
   out->Finish();
 }
 
@@ -116,9 +133,10 @@ std::unique_ptr<dataset::FrameReader> Opened(const RestoreOptions& options, cons
 int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop) {
   const std::optional<Optics> optics = OpticsOf(options.optics);
   const Threads threads(options.threads);
+  const std::shared_ptr<SharpeningNetwork> network = NetworkOf(options);
   try {
     const auto reader = Opened(options, stop);
-    Run(options, optics, *reader, stop);
+    Run(options, optics, *reader, network, stop);
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;
   }
@@ -128,13 +146,14 @@ int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop) {
 int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop) {
   const std::optional<Optics> optics = OpticsOf(options.optics);
   const Threads threads(options.threads);
+  const std::shared_ptr<SharpeningNetwork> network = NetworkOf(options);
   try {
     const auto reader = Opened(options, stop);
     FileFrames file(*reader, stop);
     const Changing changing = Compare(options, file);
     Inside video(file, changing.area);
     const VideoFacts facts = Look(options, optics, changing, FlowOf(options), video);
-    cli::Print(PlanText(facts, PlanRestore(facts, options.params), optics));
+    cli::Print(PlanText(facts, PlanOf(options, facts, network.get()), optics));
   } catch (const dataset::Interrupted&) {
     return cli::kExitInterrupted;
   }

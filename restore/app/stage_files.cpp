@@ -28,13 +28,14 @@ void StageFiles::Add(const FrameOnWay& frame) {
   AddTo("own", frame.own);
   AddTo("mask", frame.mask);
   AddTo("background", frame.background);
+  AddTo("blended", frame.blended);
 }
 
 void StageFiles::Finish(const VideoFacts& facts, const RestorePlan& plan,
-                        const std::optional<Optics>& optics) {
+                        const std::optional<Optics>& optics, const SharpenCounts& counts) {
   for (auto& [name, sink] : sinks_) sink->Finish();
   dataset::MakeFolders(folder_);
-  const std::string text = PlanJson(facts, plan).dump(2) + "\n";
+  const std::string text = PlanJson(facts, plan, counts).dump(2) + "\n";
   dataset::WriteFileAtomically(folder_ / "plan.json", dataset::AsBytes(text));
   if (!facts.scene) return;
   const TurbulenceStrength& strength = facts.scene->strength;

@@ -21,7 +21,9 @@ class StageFiles {
   explicit StageFiles(std::filesystem::path folder);
 
   void Add(const FrameOnWay& frame);
-  void Finish(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics);
+  // counts: of the tiles that were sharpened.
+  void Finish(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics,
+              const SharpenCounts& counts);
 
  private:
   void AddTo(const std::string& name, const cv::Mat& picture);

@@ -9,6 +9,7 @@
 
 #include "restore/restormer.h"
 #include "tests/bench/measure.h"
+#include "tests/bench/sharpen_frames.h"
 #include "tests/bench/table.h"
 #include "tests/restore/random_network.h"
 #include "tests/restore/restormer_twin.h"
@@ -22,6 +23,7 @@ using restore::RestormerShape;
 
 struct Options {
   bool quick = false;
+  std::string frames, model;
   std::string json_file;
 };
 
@@ -102,12 +104,17 @@ int main(int argc, char** argv) {
   Options options;
   app.add_flag("--quick", options.quick, "tiny images, one run each: does it work at all?");
   app.add_option("--json", options.json_file, "write all figures to this file")->type_name("FILE");
+  CLI::Option* frames = app.add_option(
+      "--frames", options.frames,
+      "instead: frames of this folder, sharpened as unshimmer does it, with and without what is skipped");
+  app.add_option("--model", options.model, "the network for them (default: the one that unshimmer carries)")
+      ->needs(frames);
   CLI11_PARSE(app, argc, argv);
   try {
     std::ofstream file;
     if (!options.json_file.empty()) file.open(options.json_file);  // now, not after minutes of measuring
     if (!file) throw std::runtime_error(options.json_file + " can't be written");
-    const Json json = Run(options);
+    const Json json = options.frames.empty() ? Run(options) : SharpenFrames(options.frames, options.model);
     if (!options.json_file.empty() && !(file << json.dump(2) << std::endl))
       throw std::runtime_error(options.json_file + " can't be written");
   } catch (const std::exception& error) {

@@ -129,6 +129,23 @@ TEST_F(Programs, SharpenMeasuresEveryNetwork) {
   }
 }
 
+TEST_F(Programs, SharpenMeasuresWhatIsKeptOfFrames) {
+  fs::create_directory(folder_ / "frames");
+  cv::Mat frame(80, 100, CV_8UC3);
+  cv::randu(frame, 0, 255);
+  for (const char* name : {"0.png", "1.png", "2.png"})
+    ASSERT_TRUE(cv::imwrite((folder_ / "frames" / name).string(), frame));
+  const Ran ran = Run(SHIMMER_BENCH_SHARPEN, "--frames frames --json kept.json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.text;
+  const Json json = Read("kept.json");
+  ExpectTime(json["ms_anew"]);
+  EXPECT_EQ(json["computed"], 1);
+  EXPECT_EQ(json["kept"], 2);
+  EXPECT_EQ(json["rms_keeping"], 0);
+  EXPECT_EQ(json["rms_tiles"], 0);  // there is one
+  EXPECT_EQ(Run(SHIMMER_BENCH_SHARPEN, "--frames nowhere").exit_code, 1);
+}
+
 TEST_F(Programs, BadArgumentsAreRefusedInALine) {
   for (const std::string program : {SHIMMER_BENCH_STEP, SHIMMER_BENCH_ACCURACY, SHIMMER_BENCH_PNG}) {
     EXPECT_NE(Run(program, "--quick --nonsense").exit_code, 0);

@@ -55,7 +55,7 @@ Outcome RunOn(const std::vector<cv::Mat>& video, const RestoreParams& params = {
     EXPECT_EQ(reads, ReadsOfLook(frames.count()));
   }
   run.plan = PlanRestore(run.facts, params);
-  Restore(frames, run.facts, run.plan, [&](const FrameOnWay& frame) {
+  Restore(frames, run.facts, run.plan, nullptr, [&](const FrameOnWay& frame) {
     EXPECT_EQ(frame.index, std::ssize(run.frames));
     run.frames.push_back(frame);
   });
@@ -319,10 +319,10 @@ TEST(Restore, EndsWithWhatGoesWrong) {
   Broken video(Shaken(9));
   const VideoFacts facts = LookAt(video, {}, [] {});
   const RestorePlan plan = PlanRestore(facts, {});
-  EXPECT_THROW(Restore(video, facts, plan, [](const FrameOnWay&) { throw std::logic_error("full"); }),
+  EXPECT_THROW(Restore(video, facts, plan, nullptr, [](const FrameOnWay&) { throw std::logic_error("full"); }),
                std::logic_error);
   video.broken_ = true;
-  EXPECT_THROW(Restore(video, facts, plan, [](const FrameOnWay&) {}), std::runtime_error);
+  EXPECT_THROW(Restore(video, facts, plan, nullptr, [](const FrameOnWay&) {}), std::runtime_error);
 }
 
 }  // namespace

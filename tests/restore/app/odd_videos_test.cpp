@@ -38,7 +38,7 @@ void PutLong(const TempFolder& folder, const std::string& video, int frames, cv:
 }
 
 std::string PlanOf(const TempFolder& folder, const std::string& video, const Words& more = {}) {
-  Words words = {"plan", video, "--quiet"};
+  Words words = {"plan", video, "--quiet", "--no-sharpen"};
   words.insert(words.end(), more.begin(), more.end());
   const Ran plan = Unshimmer(folder, words);
   ExpectDone(plan);

@@ -18,10 +18,11 @@ inline Ran Unshimmer(const TempFolder& folder, const Words& words) {
   return shimmer::app::Running(folder.path(), words, false, UNSHIMMER_PROGRAM).Wait();
 }
 
-// unshimmer restore VIDEO --out OUT --quiet MORE
+// unshimmer restore VIDEO --out OUT --quiet --no-sharpen MORE: what a network would add has tests of its own
+// (sharpen_test.cpp).
 inline Ran Restored(const TempFolder& folder, const std::string& video, const std::string& out,
                     const Words& more = {}) {
-  Words words = {"restore", video, "--out", out, "--quiet"};
+  Words words = {"restore", video, "--out", out, "--quiet", "--no-sharpen"};
   words.insert(words.end(), more.begin(), more.end());
   return Unshimmer(folder, words);
 }

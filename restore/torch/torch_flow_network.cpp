@@ -1,11 +1,5 @@
-// The one file that is compiled against torch.
-#include "restore/torch/torch_library.h"
-
-#include <ATen/Parallel.h>
+// Flow by networks.
 #include <tbb/parallel_for.h>
-#include <torch/csrc/jit/runtime/graph_executor.h>
-#include <torch/csrc/jit/runtime/print_handler.h>
-#include <torch/script.h>
 
 #include <algorithm>
 #include <memory>
@@ -15,6 +9,9 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "restore/torch/torch_library.h"
+#include "restore/torch/torch_module.h"
 
 namespace shimmer::restore {
 namespace {
@@ -28,30 +25,6 @@ constexpr const char* kRange = "range";
       network + ": " + why +
       ". Must be TorchScript that takes two images 1x3xHxW and gives their flow 1x2xHxW, or a list of flows");
 }
-
-// Torch says on many lines where in its own code and in the network's something failed: the line that says
-// what. Of what fails in a network's code it is the last.
-std::string WhatTorchSays(const std::exception& error) {
-  const auto* torchs = dynamic_cast<const c10::Error*>(&error);
-  std::istringstream text(torchs ? torchs->what_without_backtrace() : error.what());
-  std::string first, last;
-  for (std::string line; std::getline(text, line);) {
-    if (line.find_first_not_of(" \t") == std::string::npos) continue;
-    if (first.empty()) first = line;
-    last = line;
-  }
-  return "torch says: " + (first.starts_with("The following operation failed") ? last : first);
-}
-
-// Warnings are for who made the network.
-class NoWarnings {
- private:
-  class Silent : public c10::WarningHandler {
-    void process(const c10::SourceLocation&, const std::string&, bool) override {}
-  };
-  Silent silent_;
-  c10::Warning::WarningHandlerGuard guard_{&silent_};
-};
 
 std::string SizeText(const cv::Mat& image) {
   return std::to_string(image.cols) + "x" + std::to_string(image.rows) + " px";
@@ -71,10 +44,8 @@ class Network {
  public:
   explicit Network(const std::string& path) : path_(path) {
     torch::jit::ExtraFilesMap extra{{kRange, ""}};
-    const NoWarnings no_warnings;
     try {
-      module_ = torch::jit::load(path, torch::kCPU, extra);
-      module_.eval();
+      module_ = LoadModule(path, extra);
     } catch (const std::exception& error) {
       Refuse(path_, "can't be loaded, " + WhatTorchSays(error));
     }
@@ -85,7 +56,7 @@ class Network {
   cv::Mat Flow(const cv::Mat& from, const cv::Mat& to) const {
     at::Tensor flow;
     try {
-      flow = FinestOf(Run(ImageOf(from), ImageOf(to)));
+      flow = FinestOf(Run(module_, {ImageOf(from), ImageOf(to)}));
       if (flow.defined()) flow = flow.to(torch::kFloat32);
     } catch (const std::exception& error) {
       Refuse(path_, "fails on two images of " + SizeText(from) + ", " + WhatTorchSays(error));
@@ -116,17 +87,6 @@ class Network {
     return torch::from_blob(samples.data, {1, samples.rows, samples.cols, 3}, torch::kFloat32)
         .permute({0, 3, 1, 2})
         .clone(at::MemoryFormat::Contiguous);
-  }
-
-  c10::IValue Run(const at::Tensor& from, const at::Tensor& to) const {
-    // All of this is the calling thread's. Were torch to optimise what it has seen run, the second flow would
-    // be computed otherwise than the first.
-    const torch::NoGradGuard no_gradients;
-    const torch::jit::GraphOptimizerEnabledGuard as_written(false);
-    const NoWarnings no_warnings;
-    at::init_num_threads();
-    torch::jit::Module module = module_;
-    return module.forward({from, to});
   }
 
   std::string path_;
@@ -174,10 +134,6 @@ void Try(TorchFlow& flow) {
 }  // namespace
 
 extern "C" void ShimmerMakeTorchFlows(const std::filesystem::path& network, FlowMaker& flows) {
-  torch::jit::setPrintHandler([](const std::string&) {});
-  // Torch's own threads wait for one another without letting the processor go: beside others, ours too, two
-  // are several times as slow as one. And what one computes does not depend on how many there are.
-  at::set_num_threads(1);
   const auto loaded = std::make_shared<const Network>(network.string());
   TorchFlow flow(loaded);
   Try(flow);
