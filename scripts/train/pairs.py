@@ -77,6 +77,7 @@ class Draws(Dataset):
     """Training samples by number: what sample n is depends on (seed, n) alone, not on workers or where a run resumed.
 
     An index is (n, patch): the sample's number and the side of its square, px. Frames that are smaller are reflected.
+    A sample is (input, clean, mean square difference of the whole frames).
     """
 
     def __init__(self, kinds: Sequence[Pairs], weights: Sequence[float], held_out: set[str], seed: int) -> None:
@@ -87,7 +88,7 @@ class Draws(Dataset):
                 raise ValueError(f"{pairs.frames.folder}: all of its sources are held out, none is left to train on")
         self.weights = np.array(weights, np.float64) / np.sum(weights)
 
-    def __getitem__(self, index: tuple[int, int]) -> tuple[torch.Tensor, torch.Tensor]:
+    def __getitem__(self, index: tuple[int, int]) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
         number, patch = index
         rng = np.random.default_rng((self.seed, number))
         kind = int(rng.choice(len(self.kinds), p=self.weights))
@@ -95,7 +96,8 @@ class Draws(Dataset):
         height, width = turb.shape[1:]
         y, x = (int(rng.integers(max(side - patch, 0) + 1)) for side in (height, width))
         turned = rng.random(3) < 0.5  # left to right, top to bottom, and over the diagonal
-        return tuple(torch.from_numpy(_cut(frame, y, x, patch, turned)) for frame in (turb, clean))
+        difference = torch.tensor(np.mean((turb - clean) ** 2))
+        return *(torch.from_numpy(_cut(frame, y, x, patch, turned)) for frame in (turb, clean)), difference
 
 
 def _cut(frame: np.ndarray, y: int, x: int, patch: int, turned: np.ndarray) -> np.ndarray:

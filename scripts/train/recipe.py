@@ -18,14 +18,14 @@ KEYS: dict[str, Any] = {
     "overlap": 32,
     "pairs": None,        # [{"dataset": folder, "stacked": folder, "weight": 1}], folders below --data
     "hold_out": 0.1,      # share of the sources, whole photographs, that only validation sees
-    "loss": "l1",         # or "l2"
+    "loss": "l1",         # or "l2", or "psnr": square error by the frame's, so that each frame counts by its dB
     "optimiser": {"rate": 3e-4, "last_rate": 1e-6, "weight_decay": 1e-4},  # AdamW, cosine
     "stages": None,       # [{"iterations": n, "patch": px, "batch": n}, ...]
     "average": 0.0,       # of the weights over the iterations: decay each, 0: none
     "validate": {"every": 1000, "count": 64, "patch": 128},
     "checkpoint_every": 500,
 }
-LOSSES = ("l1", "l2")
+LOSSES = ("l1", "l2", "psnr")
 
 
 def read(path: str) -> dict[str, Any]:
@@ -72,8 +72,10 @@ def iterations(recipe: dict[str, Any]) -> int:
 
 
 def fingerprint(recipe: dict[str, Any]) -> str:
-    """Of what a run's result depends on: a run is taken up again with the same recipe only."""
-    return hashlib.sha256(json.dumps(recipe, sort_keys=True).encode()).hexdigest()[:16]
+    """Of what the weights depend on: a run is taken up again with the same of it only."""
+    weighty = {key: value for key, value in recipe.items()
+               if key not in ("name", "tile", "overlap", "validate", "checkpoint_every")}
+    return hashlib.sha256(json.dumps(weighty, sort_keys=True).encode()).hexdigest()[:16]
 
 
 def smoke(recipe: dict[str, Any]) -> dict[str, Any]:

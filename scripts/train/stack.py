@@ -10,30 +10,34 @@ as they are, so that it goes on where it stopped. The data set's layout is `sequ
 from __future__ import annotations
 
 import argparse
-import json
 import subprocess
 import sys
 from pathlib import Path
 
+from shimmer_dataset import ShimmerDataset
+
 
 def stack(dataset: Path, out: Path, clips: int | None, program: str) -> int:
-    """Returns how many clips are there. A clip that fails is named, and the others go on."""
-    layout = json.loads((dataset / "dataset.json").read_text())["config"]["output"]["layout"]
-    if layout != "sequence":
-        raise ValueError(f"{dataset}: output.layout is {layout}, must be sequence: the others have no folders of clips")
+    """Returns how many clips are there. One that can't be restored is named and left out."""
+    sequence = ShimmerDataset(dataset, frames="all")
+    if sequence.layout != "sequence":
+        raise ValueError(f"{dataset}: output.layout is {sequence.layout}, must be sequence: the others have no folders "
+                         "of clips")
     out.mkdir(parents=True, exist_ok=True)
-    done = failed = 0
-    for clip in sorted((dataset / "clips").iterdir())[:clips]:
-        if not (out / clip.name).is_dir():
-            run = subprocess.run([program, "restore", clip, "--no-sharpen", "--out", out / clip.name, "--quiet"],
+    done = 0
+    for item in range(len(sequence))[:clips]:
+        line = sequence.line(item)
+        folder = dataset / Path(line["files"][0]["path"]).parents[1]
+        stacked = out / f"{line['clip']:06d}"
+        if not stacked.is_dir():
+            run = subprocess.run([program, "restore", folder, "--no-sharpen", "--out", stacked, "--quiet"],
                                  stderr=subprocess.PIPE, text=True)
             if run.returncode:
-                print(f"stack.py: {clip}: {run.stderr.strip()}", file=sys.stderr)
-                failed += 1
+                print(f"stack.py: {folder}: {run.stderr.strip()}", file=sys.stderr)
                 continue
         done += 1
-    if failed:
-        raise ValueError(f"{failed} of {done + failed} clips failed")
+    if not done:
+        raise ValueError(f"{dataset}: none of its clips could be restored")
     return done
 
 

@@ -56,6 +56,36 @@ class Pairs(sets.SetsTest):
                 for name in names:
                     self.assertRegex(name, r"^\d{6}\.png$")
 
+    def test_a_network_learns_from_them(self):
+        """Twenty iterations of their loop: patches cut from pairs by their lists, L1, AdamW; the loss falls."""
+        try:
+            import torch
+        except ImportError:
+            self.skipTest("needs torch (scripts/setup.sh --training)")
+        import cv2
+        sys.path.insert(0, str(sets.REPOSITORY / "scripts/train"))
+        from restormer import Restormer, Shape
+        folder = self.make("set", "pairs", clips=8, tilt_strength_px=0, blur_min_sigma_px=1.5, blur_max_sigma_px=1.5)
+        lists = turb_dataset(folder, "shimmer", "train")
+        pairs = [[torch.from_numpy(cv2.imread(path, cv2.IMREAD_COLOR)[:, :, ::-1].copy()).permute(2, 0, 1) / 255
+                  for path in paths] for paths in zip(*lists)]
+        torch.manual_seed(1)
+        torch.set_num_threads(1)
+        network = Restormer(Shape(width=8, blocks=(1, 1), heads=(1, 2), refinement=0))
+        optimiser = torch.optim.AdamW(network.parameters(), lr=3e-3, weight_decay=1e-4)
+        losses = []
+        for iteration in range(20):
+            cut = [(int(torch.randint(8, ())), int(torch.randint(16, ()))) for _ in range(4)]
+            turb, clean = (torch.stack([pairs[(4 * iteration + k) % len(pairs)][kind][:, y:y + 32, x:x + 32]
+                                        for k, (y, x) in enumerate(cut)]) for kind in (0, 1))
+            loss = torch.nn.functional.l1_loss(network(turb), clean)
+            optimiser.zero_grad()
+            loss.backward()
+            optimiser.step()
+            losses.append((loss / torch.nn.functional.l1_loss(turb, clean)).item())
+        self.assertAlmostEqual(losses[0], 1, places=5)  # it begins as one that changes nothing
+        self.assertLess(sum(losses[-5:]) / 5, 0.97)
+
     def test_our_config_for_it_has_a_name_and_a_size_that_it_takes(self):
         config = json.loads((sets.REPOSITORY / "configs/train_pairs.json").read_text())
         self.assertIn(config["output"]["name"], NAMES)

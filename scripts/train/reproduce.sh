@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Remakes the weights that ship, restore/models/shimmer.safetensors, from nothing: clips, stacked frames, training. Hours
+# on two cores; killed, it goes on where it stopped.
+#
+#   scripts/train/reproduce.sh [FOLDER]     which gets some 2 GB, default build/train
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+folder=${1:-build/train}
+scripts/setup.sh --training --photos
+scripts/build.sh release
+programs=build/release/bin
+mkdir -p "$folder"
+for kind in static dynamic; do
+  "$programs/shimmer" generate "configs/train_$kind.json" --set clips=700 --out "$folder/$kind"
+  scripts/train/stack.py "$folder/$kind" --out "$folder/stacked/$kind" --clips 190 --program "$programs/unshimmer"
+done
+scripts/train/train.py scripts/train/small.json --data "$folder" --out "$folder/trained"
+cp "$folder/trained/shimmer-small.safetensors" restore/models/shimmer.safetensors
+scripts/build.sh release
