@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "restore/model_card.h"
+#include "restore/planes.h"
 #include "restore/safe_tensors.h"
 
 namespace shimmer::restore {
@@ -18,30 +19,12 @@ cv::Mat Sample(const SafeTensors& file, const std::string& name, int side) {
   if (found == file.tensors.end() || found->second.shape != shape)
     throw std::runtime_error(
         file.file + ": " + name +
-        (found == file.tensors.end() ? " is missing" : " is " + ShapeText(found->second.shape)) + ", must be " +
-        ShapeText(shape) + ", of the card's tile");
+        (found == file.tensors.end() ? " is missing" : " is " + ShapeText(found->second.shape)) +
+        ", must be " + ShapeText(shape) + ", of the card's tile");
   return PictureOfPlanes(found->second.values.data(), {side, side});
 }
 
 }  // namespace
-
-cv::Mat PictureOfPlanes(const float* planes, cv::Size size) {
-  std::vector<cv::Mat> channels;
-  for (int c = 0; c < 3; ++c)
-    channels.emplace_back(size, CV_32FC1, const_cast<float*>(planes) + static_cast<ptrdiff_t>(c) * size.area());
-  cv::Mat picture;
-  cv::merge(channels, picture);
-  return picture;
-}
-
-std::vector<float> PlanesOf(const cv::Mat& picture) {
-  std::vector<float> planes(picture.total() * 3);
-  std::vector<cv::Mat> channels;
-  for (int c = 0; c < 3; ++c)
-    channels.emplace_back(picture.size(), CV_32FC1, planes.data() + static_cast<size_t>(c) * picture.total());
-  cv::split(picture, channels);
-  return planes;
-}
 
 ImportedModel ReadImportedModel(const fs::path& network) {
   const fs::path beside = network.string() + ".safetensors";
@@ -64,9 +47,12 @@ void CheckSample(SharpeningNetwork& network, const ImportedModel& model) {
   const double error = cv::norm(network.Sharpened(model.sample_input), model.sample_output, cv::NORM_INF);
   if (error <= kMostSampleError) return;
   char text[128];
-  std::snprintf(text, sizeof text, "by up to %.2g of the range, must be at most %.2g", error, kMostSampleError);
-  throw std::runtime_error(model.file.string() + ": makes something else of its recorded sample than where it was "
-                           "exported, " + text + ": what runs it here computes a part of it otherwise");
+  std::snprintf(text, sizeof text, "by up to %.2g of the range, must be at most %.2g", error,
+                kMostSampleError);
+  throw std::runtime_error(model.file.string() +
+                           ": makes something else of its recorded sample than where it was "
+                           "exported, " +
+                           text + ": what runs it here computes a part of it otherwise");
 }
 
 }  // namespace shimmer::restore

@@ -5,14 +5,13 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
-#include <vector>
 
 #include "restore/sharpening_network.h"
 
 namespace shimmer::restore {
 
-// Importers may be wrong without a word: OpenCV 4.6 normalises otherwise than PyTorch, which shows as 0.05 of the
-// range. Correct ones differ by the order of their sums, 1e-5. This is an eighth of a level of 255.
+// Importers may be wrong without a word: OpenCV 4.6 normalises otherwise than PyTorch, which shows as 0.05 of
+// the range. Correct ones differ by the order of their sums, 1e-5. This is an eighth of a level of 255.
 inline constexpr double kMostSampleError = 5e-4;
 
 struct ImportedModel {
@@ -22,16 +21,12 @@ struct ImportedModel {
   cv::Mat sample_input, sample_output;  // CV_32FC3, of a tile's size
 };
 
-// Reads FILE.safetensors, of the network in FILE: its metadata's card is JSON with "format" 1, "name", "tile" and
-// "overlap", px, and its tensors sample.input and sample.output are 3 x tile x tile. Throws std::runtime_error
-// with the file and what is wrong.
+// Reads FILE.safetensors, of the network in FILE: its metadata's card is JSON with "format" 1, "name", "tile"
+// and "overlap", px, and its tensors sample.input and sample.output are 3 x tile x tile. Throws
+// std::runtime_error with the file and what is wrong.
 ImportedModel ReadImportedModel(const std::filesystem::path& network);
 
 // Throws std::runtime_error where the network makes something else of the recorded sample.
 void CheckSample(SharpeningNetwork& network, const ImportedModel& model);
-
-// 3 x H x W floats as a picture CV_32FC3, and back.
-cv::Mat PictureOfPlanes(const float* planes, cv::Size size);
-std::vector<float> PlanesOf(const cv::Mat& picture);
 
 }  // namespace shimmer::restore

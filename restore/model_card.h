@@ -50,7 +50,8 @@ struct ModelCard : TileCard {
 // Throws std::runtime_error with the file, the key, its value and what it may be.
 ModelCard ReadModelCard(const SafeTensors& file);
 
-// Of the card "format", "name", "tile" and "overlap" alone: of a network that is built otherwise. Throws as that does.
+// Of the card "format", "name", "tile" and "overlap" alone: of a network that is built otherwise. Throws as
+// that does.
 TileCard ReadTileCard(const SafeTensors& file);
 
 }  // namespace shimmer::restore

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "restore/imported_model.h"
+#include "restore/planes.h"
 
 namespace shimmer::restore {
 namespace {

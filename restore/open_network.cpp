@@ -30,7 +30,11 @@ class RestormerNetwork : public SharpeningNetwork {
   TileSize tile() const override {
     return {.side_px = restormer_.Card().tile_px, .overlap_px = restormer_.Card().overlap_px};
   }
-  cv::Mat Sharpened(const cv::Mat& picture) override { return restormer_.Run(picture); }
+  cv::Mat Sharpened(const cv::Mat& picture) override {
+    const cv::Mat made = restormer_.Run(picture);
+    if (!cv::checkRange(made)) throw std::runtime_error(name() + ": gives values that are not finite");
+    return made;
+  }
 
  private:
   Restormer restormer_;
@@ -43,8 +47,8 @@ std::shared_ptr<SharpeningNetwork> OpenNetwork(const std::filesystem::path& file
   if (end == ".safetensors") return std::make_shared<RestormerNetwork>(ReadSafeTensors(file));
   if (end == ".onnx") return OpenOnnxNetwork(file);
   if (end == ".pt") return OpenTorchNetwork(file);
-  throw std::invalid_argument(file.string() +
-                              ": must be weights in .safetensors, or a network in .onnx or .pt (TorchScript)");
+  throw std::invalid_argument(
+      file.string() + ": must be weights in .safetensors, or a network in .onnx or .pt (TorchScript)");
 }
 
 std::shared_ptr<SharpeningNetwork> ShippedNetwork() {

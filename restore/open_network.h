@@ -8,8 +8,8 @@
 
 namespace shimmer::restore {
 
-// By the name's end: .safetensors, weights of a Restormer (restormer.h); .onnx (onnx_network.h); .pt, TorchScript
-// (torch_network.h). Throws std::invalid_argument for another, and as these do.
+// By the name's end: .safetensors, weights of a Restormer (restormer.h); .onnx (onnx_network.h); .pt,
+// TorchScript (torch_network.h). Throws std::invalid_argument for another, and as these do.
 std::shared_ptr<SharpeningNetwork> OpenNetwork(const std::filesystem::path& file);
 
 // That which the program carries: restore/models/shimmer.safetensors, trained by scripts/train/reproduce.sh.

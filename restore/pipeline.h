@@ -10,9 +10,10 @@
 
 namespace shimmer::restore {
 
-// video: what was looked at; of frames with bars their Inside, around which the bars are put back. sharpener: of
-// frames of SharpenedSize, where the plan sharpens; else none. sink gets every frame, in order, and for one thread at a time. Memory: what the stages hold, and a few
-// frames between them, however long the video is. Throws what reading, a stage or the sink throws.
+// video: what was looked at; of frames with bars their Inside, around which the bars are put back. sharpener:
+// of frames of SharpenedSize, where the plan sharpens; else none. sink gets every frame, in order, and for
+// one thread at a time. Memory: what the stages hold, and a few frames between them, however long the video
+// is. Throws what reading, a stage or the sink throws.
 void Restore(Frames& video, const VideoFacts& facts, const RestorePlan& plan, Sharpener* sharpener,
              const std::function<void(const FrameOnWay&)>& sink);
 

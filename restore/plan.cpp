@@ -81,8 +81,7 @@ std::string MotionEverywhere(const SceneFacts& scene, cv::Size size) {
   if (scene.segment.method == SegmentMethod::kFused && scene.moving_share > kMostMoving)
     return "more than half of the picture moves";
   const double scale = std::max(size.width, size.height) > kLargeSide_px ? 2 : 1;
-  const double motion_px = scale * scene.segment.aof.typical_px,
-               tilt_px = TiltOf(scene);
+  const double motion_px = scale * scene.segment.aof.typical_px, tilt_px = TiltOf(scene);
   const bool moves_on = motion_px > std::max(kLeastMotion_px, kMostOfTilt * tilt_px);
   if (!moves_on && tilt_px <= kMostTilt_px) return {};
   return "most of the picture moves on by more than turbulence does (" + Px(std::max(motion_px, tilt_px)) +

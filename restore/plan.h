@@ -52,8 +52,8 @@ cv::Size SharpenedSize(const RestorePlan& plan);
 // that is to be followed shows no one scene.
 bool HasOneScene(const VideoFacts& facts, const RestoreParams& params);
 
-// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see, as RequireTile does, and for a video that
-// goes over to another scene (LastingCut), unless its camera is taken to have stood.
+// Throws std::invalid_argument where Border::kCrop leaves nothing that all frames see, as RequireTile does,
+// and for a video that goes over to another scene (LastingCut), unless its camera is taken to have stood.
 RestorePlan PlanRestore(const VideoFacts& facts, const RestoreParams& params);
 
 }  // namespace shimmer::restore

@@ -45,8 +45,8 @@ cv::Mat WithChange(const cv::Mat& frame, const cv::Mat& change) {
   return result;
 }
 
-// What rounding to whole samples makes of equal pictures: mean square difference, levels. (Two roundings, each with
-// a variance of 1/12 of a step.)
+// What rounding to whole samples makes of equal pictures: mean square difference, levels. (Two roundings,
+// each with a variance of 1/12 of a step.)
 double RoundingOf(int depth) {
   const double step = depth == CV_32F ? 0 : 255 / WhiteOf(depth);
   return step * step / 6;

@@ -11,9 +11,10 @@
 namespace shimmer::restore {
 
 struct SharpenParams {
-  // A tile keeps what was added to it (not its px, which are the frame's own) while its px are within this of those that it was made of, RMS in levels of
-  // [0, 255], on top of what rounding to 8 or 16 bits makes of equal pictures; and within kept_local_levels in
-  // each block of 16x16 px, so that a small thing leaves no trace. 0: only while they are the same.
+  // A tile keeps what was added to it (not its px, which are the frame's own) while its px are within this of
+  // those that it was made of, RMS in levels of [0, 255], on top of what rounding to 8 or 16 bits makes of
+  // equal pictures; and within kept_local_levels in each block of 16x16 px, so that a small thing leaves no
+  // trace. 0: only while they are the same.
   double kept_levels = 0.5;
   double kept_local_levels = 1.5;
   double flat_levels = 0.25;  // a tile whose standard deviation is no more passes as it is
@@ -31,9 +32,9 @@ class Sharpener {
   Sharpener(std::shared_ptr<SharpeningNetwork> network, cv::Size frame, const SharpenParams& params = {});
 
   // A frame sharpened: of its size and type (levels.h). The three channels that a network makes of grey are
-  // averaged. Floats beyond black and white are moved as far as those are; what is no number is black to the network, and
-  // stays none. Throws std::invalid_argument for a frame of
-  // another size, and what the network throws.
+  // averaged. Floats beyond black and white are moved as far as those are; what is no number is black to the
+  // network, and stays none. Throws std::invalid_argument for a frame of another size, and what the network
+  // throws.
   cv::Mat Next(const cv::Mat& frame);
   const SharpenCounts& counts() const { return counts_; }
 

@@ -10,8 +10,8 @@ namespace shimmer::restore {
 // that it sees, so what it makes of a px depends on the tile.
 struct TileSize {
   int side_px = 0;
-  int overlap_px = 0;   // of neighbouring tiles
-  bool fixed = false;   // it takes pictures of side_px alone; else smaller ones too
+  int overlap_px = 0;  // of neighbouring tiles
+  bool fixed = false;  // it takes pictures of side_px alone; else smaller ones too
   friend bool operator==(const TileSize&, const TileSize&) = default;
 };
 

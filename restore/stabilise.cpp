@@ -29,8 +29,9 @@ constexpr double kLeastAgreeing = 0.72;
 
 constexpr int kLeastScene = 8;  // frames
 
-// A frame of a scene that has next to no detail may match nothing, and be the same scene all the same: its means of
-// 16x16 parts tell. Those of other scenes correlate by 0.8 at most where one has a bright sky as well.
+// A frame of a scene that has next to no detail may match nothing, and be the same scene all the same: its
+// means of 16x16 parts tell. Those of other scenes correlate by 0.8 at most where one has a bright sky as
+// well.
 constexpr int kParts = 16;
 constexpr double kSameParts = 0.97;
 

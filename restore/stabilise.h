@@ -19,7 +19,8 @@ namespace shimmer::restore {
 
 enum class Match {
   kFound,
-  kFlat,  // too little is to be seen in the frame: black, of one colour, or coarse alone, as in the last found
+  kFlat,  // too little is to be seen in the frame: black, of one colour, or coarse alone, as in the last
+          // found
   kLost,  // the frame shows something else than those before, or is further off than max_shift_px
 };
 

@@ -45,8 +45,8 @@ class Move : public Stage {
   const std::vector<FrameShift>& shifts_;
 };
 
-// Cut to what all frames see, once only px by themselves are left to be made better: the stages before work on
-// frames of one size.
+// Cut to what all frames see, once only px by themselves are left to be made better: the stages before work
+// on frames of one size.
 class Cut : public Stage {
  public:
   explicit Cut(cv::Rect area) : area_(area) {}

@@ -10,8 +10,8 @@ namespace shimmer::restore {
 // overlap_px or more: they are spread evenly. Throws std::invalid_argument unless 0 <= 2 overlap < side.
 std::vector<cv::Rect> Tiles(cv::Size frame, int side_px, int overlap_px);
 
-// Adds what is made of each tile of a frame to the whole, weighted: from 0 at an edge that another tile reaches
-// over, to 1 overlap_px inside of it. Where tiles meet, one is faded into the other.
+// Adds what is made of each tile of a frame to the whole, weighted: from 0 at an edge that another tile
+// reaches over, to 1 overlap_px inside of it. Where tiles meet, one is faded into the other.
 class TileSum {
  public:
   // tiles: Tiles(frame, ..., overlap_px).

@@ -42,7 +42,9 @@ std::string ShakeText(const VideoFacts& facts) {
     std::ranges::nth_element(scatter_px, scatter_px.begin() + std::ssize(scatter_px) / 2);
     text += "scatter   about " + Decimals(scatter_px[scatter_px.size() / 2]) + " px, of blocks of a frame\n";
   }
-  if (flat > 0) text += cli::Counted(flat, "frame") + " with too little detail to be placed: they stay where the one before is\n";
+  if (flat > 0)
+    text += cli::Counted(flat, "frame") +
+            " with too little detail to be placed: they stay where the one before is\n";
   if (lost > 0)
     text += cli::Counted(lost, "frame") + " unlike the others: they stay where the one before is\n";
   if (unsure > 0)
@@ -95,10 +97,11 @@ std::string PlanText(const VideoFacts& facts, const RestorePlan& plan, const std
   text += Cn2Text(facts, plan, optics);
   text += "stages    " + (stages.empty() ? "none" : stages.substr(2)) + "\n";
   if (plan.sharpen)
-    text += "sharpen   in " +
-            cli::Counted(std::ssize(Tiles(SharpenedSize(plan), plan.sharpen->side_px, plan.sharpen->overlap_px)),
-                         "tile") +
-            ", of which those are left out that are flat or hardly change\n";
+    text +=
+        "sharpen   in " +
+        cli::Counted(std::ssize(Tiles(SharpenedSize(plan), plan.sharpen->side_px, plan.sharpen->overlap_px)),
+                     "tile") +
+        ", of which those are left out that are flat or hardly change\n";
   if (plan.area.size() != plan.size)
     text += "area      " + std::to_string(plan.area.width) + "x" + std::to_string(plan.area.height) +
             " px from (" + std::to_string(plan.area.x) + ", " + std::to_string(plan.area.y) + ")\n";

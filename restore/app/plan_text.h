@@ -14,8 +14,8 @@ namespace shimmer::restore::app {
 // optics: with them Cn2 is given, without them what it is proportional to.
 std::string PlanText(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics);
 
-// {"size", "frames", "grey", "stabilise", "fill", "area", "skipped", "shifts_px": [[x, y], ...], ...}. counts:
-// what became of the tiles that were to be sharpened.
+// {"size", "frames", "grey", "stabilise", "fill", "area", "skipped", "shifts_px": [[x, y], ...], ...}.
+// counts: what became of the tiles that were to be sharpened.
 nlohmann::ordered_json PlanJson(const VideoFacts& facts, const RestorePlan& plan,
                                 const SharpenCounts& counts);
 

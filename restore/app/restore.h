@@ -23,8 +23,8 @@ struct RestoreOptions {
   bool quiet = false;
 };
 
-// Both return the exit code, and throw as OpticsOf, OpenNetwork, OpenFrames, TorchFlows, LookAt, PlanRestore and OpenSink
-// do.
+// Both return the exit code, and throw as OpticsOf, OpenNetwork, OpenFrames, TorchFlows, LookAt, PlanRestore
+// and OpenSink do.
 int RestoreVideo(const RestoreOptions& options, const std::atomic<bool>& stop);
 int PrintPlan(const RestoreOptions& options, const std::atomic<bool>& stop);
 

@@ -31,8 +31,8 @@ void StageFiles::Add(const FrameOnWay& frame) {
   AddTo("blended", frame.blended);
 }
 
-void StageFiles::Finish(const VideoFacts& facts, const RestorePlan& plan,
-                        const std::optional<Optics>& optics, const SharpenCounts& counts) {
+void StageFiles::Finish(const VideoFacts& facts, const RestorePlan& plan, const std::optional<Optics>& optics,
+                        const SharpenCounts& counts) {
   for (auto& [name, sink] : sinks_) sink->Finish();
   dataset::MakeFolders(folder_);
   const std::string text = PlanJson(facts, plan, counts).dump(2) + "\n";

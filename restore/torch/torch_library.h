@@ -18,10 +18,11 @@ inline constexpr const char* kMakeTorchSharpening = "ShimmerMakeTorchSharpening"
 extern "C" using MakeTorchFlows = void(const std::filesystem::path& network, FlowMaker& flows);
 
 // OpenTorchNetwork (torch_network.h), before its sample is checked.
-extern "C" using MakeTorchSharpening = void(const ImportedModel& model, std::shared_ptr<SharpeningNetwork>& network);
+extern "C" using MakeTorchSharpening =
+    void(const ImportedModel& model, std::shared_ptr<SharpeningNetwork>& network);
 
-// A function of the library, which is beside the program where the build has it, and stays loaded: what it made
-// may live on. file: the network that asks for it; instead: what else the person may ask for. Throws
+// A function of the library, which is beside the program where the build has it, and stays loaded: what it
+// made may live on. file: the network that asks for it; instead: what else the person may ask for. Throws
 // std::invalid_argument where this build has no torch, std::runtime_error where it can't be loaded.
 void* TorchFunction(const char* name, const std::filesystem::path& file, const char* instead);
 

@@ -13,11 +13,12 @@ namespace shimmer::restore {
 // what. Of what fails in a network's code it is the last.
 std::string WhatTorchSays(const std::exception& error);
 
-// Sets torch up, and loads a network for the CPU. extra: files of the archive by name, which are filled in. Throws
-// what torch throws.
+// Sets torch up, and loads a network for the CPU. extra: files of the archive by name, which are filled in.
+// Throws what torch throws.
 torch::jit::Module LoadModule(const std::string& path, torch::jit::ExtraFilesMap& extra);
 
-// On the calling thread, as the network is written. For any number of threads at a time. Throws what torch throws.
+// On the calling thread, as the network is written. For any number of threads at a time. Throws what torch
+// throws.
 c10::IValue Run(const torch::jit::Module& network, std::vector<c10::IValue> inputs);
 
 }  // namespace shimmer::restore

@@ -45,8 +45,9 @@ class TorchSharpening : public SharpeningNetwork {
 
  private:
   [[noreturn]] void Refuse(const std::string& why) const {
-    throw std::runtime_error(model_.file.string() + ": " + why +
-                             ". Must be TorchScript that takes float 1x3xHxW, RGB in [0, 1], and gives the same");
+    throw std::runtime_error(
+        model_.file.string() + ": " + why +
+        ". Must be TorchScript that takes float 1x3xHxW, RGB in [0, 1], and gives the same");
   }
 
   ImportedModel model_;
@@ -55,7 +56,8 @@ class TorchSharpening : public SharpeningNetwork {
 
 }  // namespace
 
-extern "C" void ShimmerMakeTorchSharpening(const ImportedModel& model, std::shared_ptr<SharpeningNetwork>& network) {
+extern "C" void ShimmerMakeTorchSharpening(const ImportedModel& model,
+                                           std::shared_ptr<SharpeningNetwork>& network) {
   network = std::make_shared<TorchSharpening>(model);
 }
 

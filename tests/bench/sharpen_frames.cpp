@@ -97,19 +97,24 @@ nlohmann::ordered_json SharpenFrames(const fs::path& folder, const fs::path& mod
   const auto tiles = static_cast<double>(skipped.counts.computed + skipped.counts.kept + skipped.counts.flat);
   double most_skip = 0, most_tile = 0;
   const double skip = MeanRms(anew, skipped, most_skip), tile = MeanRms(anew, whole, most_tile);
-  Table table({"frames", "ms anew", "in one piece", "with what is kept", "kept", "flat", "RMS of keeping, most",
-               "RMS of tiles, most"});
+  Table table({"frames", "ms anew", "in one piece", "with what is kept", "kept", "flat",
+               "RMS of keeping, most", "RMS of tiles, most"});
   table.Add({std::to_string(frames.size()) + " of " + SizeText(frames[0].size()), Number(anew.Median(), 0),
              Number(whole.Median(), 0), Number(skipped.Median(), 0),
              Number(100 * static_cast<double>(skipped.counts.kept) / tiles, 1) + " %",
              Number(100 * static_cast<double>(skipped.counts.flat) / tiles, 1) + " %",
              Number(skip, 3) + ", " + Number(most_skip, 3), Number(tile, 3) + ", " + Number(most_tile, 3)});
   table.Print();
-  return {{"frames", frames.size()},         {"ms_anew", anew.Median()},
-          {"ms_whole", whole.Median()},      {"ms_kept", skipped.Median()},
-          {"computed", skipped.counts.computed}, {"kept", skipped.counts.kept},
-          {"flat", skipped.counts.flat},     {"rms_keeping", skip},
-          {"most_rms_keeping", most_skip},   {"rms_tiles", tile},
+  return {{"frames", frames.size()},
+          {"ms_anew", anew.Median()},
+          {"ms_whole", whole.Median()},
+          {"ms_kept", skipped.Median()},
+          {"computed", skipped.counts.computed},
+          {"kept", skipped.counts.kept},
+          {"flat", skipped.counts.flat},
+          {"rms_keeping", skip},
+          {"most_rms_keeping", most_skip},
+          {"rms_tiles", tile},
           {"most_rms_tiles", most_tile}};
 }
 

@@ -47,7 +47,8 @@ TEST_F(OnnxNetwork, MakesOfATileWhatPyTorchMakes) {
   EXPECT_GE(cv::norm(model.sample_input, model.sample_output, cv::NORM_INF), 0.05);
 }
 
-// Its reach is 1 px, less than the overlap: tiles make what one picture would, but for what the fading weighs.
+// Its reach is 1 px, less than the overlap: tiles make what one picture would, but for what the fading
+// weighs.
 TEST_F(OnnxNetwork, SharpensAFrameInTiles) {
   Sharpener sharpener(OpenNetwork(kData / "fine.onnx"), {50, 37});
   const cv::Mat frame = Noise({50, 37}, CV_8UC3, 4);
@@ -58,8 +59,9 @@ TEST_F(OnnxNetwork, SharpensAFrameInTiles) {
 }
 
 TEST_F(OnnxNetwork, ThatIsImportedWrongIsRefused) {
-  EXPECT_THAT([] { OpenNetwork(kData / "normalised.onnx"); },
-              Refuses("normalised.onnx: makes something else of its recorded sample", "must be at most 0.0005"));
+  EXPECT_THAT(
+      [] { OpenNetwork(kData / "normalised.onnx"); },
+      Refuses("normalised.onnx: makes something else of its recorded sample", "must be at most 0.0005"));
 }
 
 TEST_F(OnnxNetwork, WithAnOperatorThatOpenCvLacksIsRefusedByItsName) {
@@ -75,7 +77,8 @@ TEST_F(OnnxNetwork, WithoutItsSampleIsRefused) {
 TEST_F(OnnxNetwork, ThatIsDamagedIsRefused) {
   const fs::path file = Copied("short.onnx", "fine.onnx");
   Copied("short.onnx.safetensors", "fine.onnx.safetensors");
-  for (const uintmax_t bytes : {uintmax_t{0}, uintmax_t{1}, fs::file_size(file) / 2, fs::file_size(file) - 1}) {
+  for (const uintmax_t bytes :
+       {uintmax_t{0}, uintmax_t{1}, fs::file_size(file) / 2, fs::file_size(file) - 1}) {
     Copied("short.onnx", "fine.onnx");
     fs::resize_file(file, bytes);
     EXPECT_THAT([&] { OpenNetwork(file); }, Refuses("short.onnx: ")) << bytes;

@@ -319,8 +319,9 @@ TEST(Restore, EndsWithWhatGoesWrong) {
   Broken video(Shaken(9));
   const VideoFacts facts = LookAt(video, {}, [] {});
   const RestorePlan plan = PlanRestore(facts, {});
-  EXPECT_THROW(Restore(video, facts, plan, nullptr, [](const FrameOnWay&) { throw std::logic_error("full"); }),
-               std::logic_error);
+  EXPECT_THROW(
+      Restore(video, facts, plan, nullptr, [](const FrameOnWay&) { throw std::logic_error("full"); }),
+      std::logic_error);
   video.broken_ = true;
   EXPECT_THROW(Restore(video, facts, plan, nullptr, [](const FrameOnWay&) {}), std::runtime_error);
 }

@@ -66,8 +66,9 @@ TEST(PlanSharpening, RefusesFramesBelowAFixedTile) {
   fixed.side_px = 80;
   EXPECT_NO_THROW(PlanRestore(FactsOf(1), {.sharpen = fixed}));
   fixed.side_px = 81;
-  EXPECT_THAT([&] { PlanRestore(FactsOf(1), {.sharpen = fixed}); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("frames of 100x80 px: are smaller than the 81x81 px")));
+  EXPECT_THAT(
+      [&] { PlanRestore(FactsOf(1), {.sharpen = fixed}); },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("frames of 100x80 px: are smaller than the 81x81 px")));
 }
 
 struct Outcome {
@@ -91,7 +92,8 @@ Outcome RunOn(const std::vector<cv::Mat>& video, RestoreParams params) {
 std::vector<cv::Mat> Shaken(int frames) {
   std::vector<cv::Mat> video;
   for (int k = 0; k < frames; ++k)
-    SeenFrame({.size = {160, 121}, .shift = WanderingShift(k, 9)}).convertTo(video.emplace_back(), CV_8U, 255);
+    SeenFrame({.size = {160, 121}, .shift = WanderingShift(k, 9)})
+        .convertTo(video.emplace_back(), CV_8U, 255);
   return video;
 }
 

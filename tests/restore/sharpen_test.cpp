@@ -110,7 +110,8 @@ TEST(Sharpen, RoundingIsNoChange) {
 
 // 4x4 px of 40 levels are 0.1 levels RMS of a tile of 384x384: too few to be seen in its mean.
 TEST(Sharpen, ASmallThingThatMovesIsSeen) {
-  Sharpener sharpener(std::make_shared<BoxSharpening>(TileSize{.side_px = 384, .overlap_px = 32}), {384, 384});
+  Sharpener sharpener(std::make_shared<BoxSharpening>(TileSize{.side_px = 384, .overlap_px = 32}),
+                      {384, 384});
   cv::Mat frame = Noise({384, 384}, CV_8UC3, 9);
   frame(cv::Rect(100, 100, 4, 4)) = cv::Scalar::all(100);
   sharpener.Next(frame);
@@ -129,10 +130,14 @@ TEST(Sharpen, FlatTilesPassAsTheyAre) {
 }
 
 TEST(Sharpen, FramesSmallerThanAFixedTileAreRefused) {
-  const auto network = std::make_shared<BoxSharpening>(TileSize{.side_px = 64, .overlap_px = 16, .fixed = true});
+  const auto network =
+      std::make_shared<BoxSharpening>(TileSize{.side_px = 64, .overlap_px = 16, .fixed = true});
   EXPECT_NO_THROW(Sharpener(network, {64, 64}));
-  EXPECT_THAT(([&] { Sharpener(network, {63, 100}); }),
-              ThrowsMessage<std::invalid_argument>(HasSubstr("63x100 px: are smaller than the 64x64 px that the model takes")));
+  EXPECT_THAT(([&] {
+                Sharpener(network, {63, 100});
+              }),
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("63x100 px: are smaller than the 64x64 px that the model takes")));
 }
 
 TEST(Sharpen, FramesOfAnotherSizeAreRefused) {

@@ -12,7 +12,8 @@ namespace shimmer::restore {
 namespace {
 
 double Rms(const cv::Mat& a, const cv::Mat& b) {
-  return cv::norm(a, b, cv::NORM_L2) / std::sqrt(static_cast<double>(a.total() * static_cast<size_t>(a.channels())));
+  return cv::norm(a, b, cv::NORM_L2) /
+         std::sqrt(static_cast<double>(a.total() * static_cast<size_t>(a.channels())));
 }
 
 // A still scene as it leaves stacking: the running mean of nine frames of a tilt of 1 px, in 8 bits.
@@ -32,7 +33,8 @@ std::vector<cv::Mat> Stacked(int frames, cv::Size size) {
 // Within half a level, RMS.
 TEST(ShippedNetwork, KeptTilesAreAsGoodAsNew) {
   const cv::Size size{200, 150};
-  Sharpener keeping(ShippedNetwork(), size), anew(ShippedNetwork(), size, {.kept_levels = 0, .kept_local_levels = 0});
+  Sharpener keeping(ShippedNetwork(), size),
+      anew(ShippedNetwork(), size, {.kept_levels = 0, .kept_local_levels = 0});
   for (const cv::Mat& frame : Stacked(12, size)) EXPECT_LE(Rms(keeping.Next(frame), anew.Next(frame)), 0.5);
   EXPECT_EQ(anew.counts().kept, 0);
 }

@@ -24,7 +24,8 @@ TEST(Tiles, CoverTheFrameAndOverlap) {
     cv::Mat covered = cv::Mat::zeros(c.frame, CV_8UC1);
     std::vector<int> columns, rows;
     for (const cv::Rect& tile : tiles) {
-      EXPECT_EQ(tile.size(), cv::Size(std::min(c.side_px, c.frame.width), std::min(c.side_px, c.frame.height)));
+      EXPECT_EQ(tile.size(),
+                cv::Size(std::min(c.side_px, c.frame.width), std::min(c.side_px, c.frame.height)));
       ASSERT_EQ(tile & cv::Rect({}, c.frame), tile);
       covered(tile) = 255;
       if (tile.y == 0) columns.push_back(tile.x);
@@ -33,7 +34,8 @@ TEST(Tiles, CoverTheFrameAndOverlap) {
     EXPECT_EQ(cv::countNonZero(covered), c.frame.area());
     EXPECT_EQ(columns.size() * rows.size(), tiles.size());
     for (const std::vector<int>& starts : {columns, rows})
-      for (size_t k = 1; k < starts.size(); ++k) EXPECT_LE(starts[k], starts[k - 1] + c.side_px - c.overlap_px);
+      for (size_t k = 1; k < starts.size(); ++k)
+        EXPECT_LE(starts[k], starts[k - 1] + c.side_px - c.overlap_px);
   }
 }
 

@@ -23,9 +23,10 @@ class Sharpening : public testing::Test {
  protected:
   void Put(const std::string& video, int frames, cv::Size size, int bits = 8) {
     for (int k = 0; k < frames; ++k)
-      folder_.Put(video + "/" + std::to_string(1000 + k) + ".png",
-                  dataset::EncodePng(SeenFrame({.size = size, .tilt_rms_px = 0.7, .frame = static_cast<uint32_t>(k)}),
-                                     bits));
+      folder_.Put(
+          video + "/" + std::to_string(1000 + k) + ".png",
+          dataset::EncodePng(SeenFrame({.size = size, .tilt_rms_px = 0.7, .frame = static_cast<uint32_t>(k)}),
+                             bits));
   }
   Ran Restore(const std::string& video, const std::string& out, const Words& more = {}) {
     Words words = {"restore", video, "--out", out, "--quiet"};
@@ -64,7 +65,8 @@ TEST_F(Sharpening, IsSwitchedOff) {
   EXPECT_FALSE(fs::exists(folder_ / "stages/blended"));
   EXPECT_TRUE(Json::parse(ReadText(folder_ / "stages/plan.json")).at("sharpen").is_null());
   for (int k = 0; k < 5; ++k)
-    EXPECT_EQ(cv::norm(FrameOf(folder_ / "out", k), FrameOf(folder_ / "sharp.stages/blended", k), cv::NORM_INF), 0);
+    EXPECT_EQ(
+        cv::norm(FrameOf(folder_ / "out", k), FrameOf(folder_ / "sharp.stages/blended", k), cv::NORM_INF), 0);
   const Words plan = {"plan", "in", "--quiet"};
   EXPECT_THAT(Unshimmer(folder_, plan).out, HasSubstr(", sharpen\nsharpen   in 1 tile, "));
   EXPECT_THAT(Unshimmer(folder_, {"plan", "in", "--quiet", "--no-sharpen"}).out,
@@ -82,7 +84,8 @@ TEST_F(Sharpening, OfOnePictureIsTheNetworks) {
   Put("in", 1, {70, 50}, 16);
   ExpectDone(Restore("in", "out"));
   const cv::Mat frame = FrameOf(folder_ / "in", 0);
-  EXPECT_EQ(cv::norm(FrameOf(folder_ / "out", 0), Sharpener(ShippedNetwork(), frame.size()).Next(frame), cv::NORM_INF),
+  EXPECT_EQ(cv::norm(FrameOf(folder_ / "out", 0), Sharpener(ShippedNetwork(), frame.size()).Next(frame),
+                     cv::NORM_INF),
             0);
 }
 
@@ -103,7 +106,8 @@ TEST_F(Sharpening, TakesAnotherModel) {
 TEST_F(Sharpening, SaysWhatIsWrongWithAModel) {
   Put("in", 2, {70, 50});
   Put("small", 2, {31, 40});
-  const auto refuses = [&](const std::string& video, const std::string& model, int exit_code, const Words& parts) {
+  const auto refuses = [&](const std::string& video, const std::string& model, int exit_code,
+                           const Words& parts) {
     ExpectRefused(Restore(video, "out", {"--model", model}), exit_code, parts);
     EXPECT_FALSE(fs::exists(folder_ / "out"));
     EXPECT_FALSE(fs::exists(folder_ / "out.part"));
@@ -111,13 +115,15 @@ TEST_F(Sharpening, SaysWhatIsWrongWithAModel) {
   refuses("in", "absent.safetensors", 1, {"absent.safetensors: cannot be read"});
   refuses("in", "absent.onnx", 1, {"absent.onnx: is not there"});
   refuses("in", "model.pth", 2, {"model.pth: must be weights in .safetensors, or a network in .onnx or .pt"});
-  refuses("in", kNetworks / "normalised.onnx", 1, {"normalised.onnx: makes something else of its recorded sample"});
+  refuses("in", kNetworks / "normalised.onnx", 1,
+          {"normalised.onnx: makes something else of its recorded sample"});
   refuses("in", kNetworks / "sorting.onnx", 1, {"OpenCV does not run its operator TopK"});
   refuses("small", kNetworks / "fine.onnx", 2, {"frames of 31x40 px: are smaller than the 32x32 px"});
   fs::resize_file(Copied("short.safetensors"), fs::file_size(kShipped) - 1000);
   refuses("in", "short.safetensors", 1, {"short.safetensors: "});
   // The card is text in the file: its sizes with another name, of the same length.
-  for (const auto& [from, to] : {std::pair("\\\"tile\\\"", "\\\"tale\\\""), std::pair("\\\"width\\\"", "\\\"witdh\\\"")}) {
+  for (const auto& [from, to] :
+       {std::pair("\\\"tile\\\"", "\\\"tale\\\""), std::pair("\\\"width\\\"", "\\\"witdh\\\"")}) {
     std::string bytes = ReadText(Copied("card.safetensors"));
     ASSERT_NE(bytes.find(from), std::string::npos);
     folder_.Put("card.safetensors", bytes.replace(bytes.find(from), std::string(from).size(), to));

@@ -39,8 +39,9 @@ TEST(TorchNetwork, WithASampleOfAnotherIsRefused) {
   const dataset::TempFolder folder;
   fs::copy_file(kData / "fine.pt", folder.path() / "other.pt");
   fs::copy_file(kData / "normalised.onnx.safetensors", folder.path() / "other.pt.safetensors");
-  EXPECT_THAT([&] { OpenNetwork(folder.path() / "other.pt"); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("other.pt: makes something else of its recorded sample")));
+  EXPECT_THAT(
+      [&] { OpenNetwork(folder.path() / "other.pt"); },
+      ThrowsMessage<std::runtime_error>(HasSubstr("other.pt: makes something else of its recorded sample")));
 }
 
 }  // namespace
