@@ -30,6 +30,7 @@ class RestormerNetwork : public SharpeningNetwork {
   TileSize tile() const override {
     return {.side_px = restormer_.Card().tile_px, .overlap_px = restormer_.Card().overlap_px};
   }
+  bool TakesManyAtOnce() const override { return true; }
   cv::Mat Sharpened(const cv::Mat& picture) override {
     const cv::Mat made = restormer_.Run(picture);
     if (!cv::checkRange(made)) throw std::runtime_error(name() + ": gives values that are not finite");

@@ -1,6 +1,9 @@
 #include "restore/sharpen.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <iterator>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -90,21 +93,16 @@ Sharpener::Sharpener(std::shared_ptr<SharpeningNetwork> network, cv::Size frame,
     tiles_.push_back({.place = place, .from = {}, .made = {}});
 }
 
-bool Sharpener::Renew(Tile& tile, const cv::Mat& picture, double rounding) {
+Sharpener::Renewal Sharpener::Renew(Tile& tile, const cv::Mat& picture, double rounding) const {
   const cv::Mat part = picture(tile.place);
-  if (!tile.from.empty() && IsNear(part, tile.from, rounding, params_)) {
-    ++counts_.kept;
-    return false;
-  }
+  if (!tile.from.empty() && IsNear(part, tile.from, rounding, params_)) return Renewal::kKept;
   tile.from = part.clone();
   if (IsFlat(part, params_.flat_levels)) {
-    ++counts_.flat;
     tile.made = cv::Mat::zeros(part.size(), part.type());
-  } else {
-    ++counts_.computed;
-    tile.made = network_->Sharpened(tile.from) - tile.from;
+    return Renewal::kFlat;
   }
-  return true;
+  tile.made = network_->Sharpened(tile.from) - tile.from;
+  return Renewal::kComputed;
 }
 
 cv::Mat Sharpener::Next(const cv::Mat& frame) {
@@ -113,9 +111,18 @@ cv::Mat Sharpener::Next(const cv::Mat& frame) {
     throw std::invalid_argument("frame is of " + SizeText(frame.size()) + ", must be of " + SizeText(size_) +
                                 " as those before");
   const cv::Mat picture = PictureOf(frame);
-  bool renewed = false;
-  for (Tile& tile : tiles_) renewed |= Renew(tile, picture, RoundingOf(frame.depth()));
-  if (renewed) {
+  std::vector<Renewal> renewals(tiles_.size());
+  const auto renew = [&](size_t k) { renewals[k] = Renew(tiles_[k], picture, RoundingOf(frame.depth())); };
+  // Whole tiles side by side wait for one another less than the parts of one do.
+  if (network_->TakesManyAtOnce())
+    tbb::parallel_for(size_t{0}, tiles_.size(), renew);
+  else
+    for (size_t k = 0; k < tiles_.size(); ++k) renew(k);
+  const int64_t kept = std::ranges::count(renewals, Renewal::kKept);
+  counts_.kept += kept;
+  counts_.flat += std::ranges::count(renewals, Renewal::kFlat);
+  counts_.computed += std::ranges::count(renewals, Renewal::kComputed);
+  if (kept < std::ssize(tiles_)) {
     TileSum sum(size_, network_->tile().overlap_px);
     for (const Tile& tile : tiles_) sum.Add(tile.made, tile.place);
     change_ = sum.Whole();

@@ -36,7 +36,7 @@ class Sharpener {
   // network, and stays none. Throws std::invalid_argument for a frame of another size, and what the network
   // throws.
   cv::Mat Next(const cv::Mat& frame);
-  const SharpenCounts& counts() const { return counts_; }
+  const SharpenCounts& counts() const { return counts_; }  // as long as Next has thrown nothing
 
  private:
   struct Tile {
@@ -44,8 +44,9 @@ class Sharpener {
     cv::Mat from, made;  // CV_32FC3 in [0, 1]; what was added to it. Empty: nothing was made yet
   };
 
-  // Computes what is added to a tile, unless it can be kept. Returns whether it is new.
-  bool Renew(Tile& tile, const cv::Mat& picture, double rounding);
+  enum class Renewal { kKept, kFlat, kComputed };
+  // Computes what is added to a tile, unless it can be kept. For several tiles at a time.
+  Renewal Renew(Tile& tile, const cv::Mat& picture, double rounding) const;
 
   std::shared_ptr<SharpeningNetwork> network_;
   cv::Size size_;

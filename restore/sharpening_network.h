@@ -23,8 +23,10 @@ class SharpeningNetwork {
   virtual ~SharpeningNetwork() = default;
   virtual std::string name() const = 0;
   virtual TileSize tile() const = 0;
+  virtual bool TakesManyAtOnce() const { return false; }  // from as many threads
   // CV_32FC3, RGB, 0 is black and 1 is white; the same of what it sees sharpened, which may reach beyond. For
-  // one thread at a time. Throws std::runtime_error where the network gives something else, or not finite.
+  // one thread at a time, unless it takes many. Throws std::runtime_error where the network gives something
+  // else, or not finite.
   virtual cv::Mat Sharpened(const cv::Mat& picture) = 0;
 };
 
