@@ -42,9 +42,9 @@ struct ModelCard : TileCard {
 };
 
 // The card that metadata "card" holds, JSON:
-//   {"format": 1, "network": "restormer", "name": "...", "width": 16, "blocks": [2, 2, 4], "heads": [1, 2,
-//   4],
-//    "refinement": 1, "expansion": 2.66, "norm": "bias_free", "unshuffle": 2, "tile": 256, "overlap": 32}
+//   {"format": 1, "network": "restormer", "name": "...", "width": 16, "blocks": [2, 2, 4],
+//    "heads": [1, 2, 4], "refinement": 1, "expansion": 2.66, "norm": "bias_free", "unshuffle": 2,
+//    "tile": 256, "overlap": 32}
 // All of these are needed; other keys say what they like.
 //
 // Throws std::runtime_error with the file, the key, its value and what it may be.

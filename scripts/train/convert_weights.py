@@ -15,7 +15,7 @@ import pickle
 import re
 import sys
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping
 
 import torch
 
@@ -33,50 +33,35 @@ PARTS = {"norm1.body": "norm1", "norm2.body": "norm2", "attn.qkv": "attention.qk
          "ffn.conv": "feed_forward.depthwise", "ffn.project_out": "feed_forward.project_out"}
 
 
-def _authors(name: str) -> str | None:
-    """A name of swz30/Restormer in ours. Its levels are counted from 1; None: it is none of its names."""
-    if match := re.fullmatch(r"(encoder|decoder)_level(\d)\.(.*)", name):
-        return f"{match[1]}.{int(match[2]) - 1}.{match[3]}"
-    if match := re.fullmatch(r"latent\.(.*)", name):
-        return f"encoder.{BOTTOM}.{match[1]}"
-    if match := re.fullmatch(r"down(\d)_\d\.body\.0\.(.*)", name):
-        return f"down.{int(match[1]) - 1}.{match[2]}"
-    if match := re.fullmatch(r"up\d_(\d)\.body\.0\.(.*)", name):
-        return f"up.{int(match[1]) - 1}.{match[2]}"
-    if match := re.fullmatch(r"reduce_chan_level(\d)\.(.*)", name):
-        return f"reduce.{int(match[1]) - 1}.{match[2]}"
-    if match := re.fullmatch(r"patch_embed\.proj\.(.*)", name):
-        return f"embed.{match[1]}"
-    return name if re.match(r"(refinement|output)\.", name) else None
+# Whole names of each scheme, as patterns, and ours. Where theirs count otherwise, {n} is the level from 0.
+AUTHORS = ((r"(encoder|decoder)_level(?P<n>\d)\.(.*)", r"\1.{n}.\3"), (r"latent\.(.*)", rf"encoder.{BOTTOM}.\1"),
+           (r"down(?P<n>\d)_\d\.body\.0\.(.*)", r"down.{n}.\2"), (r"up\d_(?P<n>\d)\.body\.0\.(.*)", r"up.{n}.\2"),
+           (r"reduce_chan_level(?P<n>\d)\.(.*)", r"reduce.{n}.\2"), (r"patch_embed\.proj\.(.*)", r"embed.\1"),
+           (r"((?:refinement|output)\..*)", r"\1"))
+PAPERS = ((r"encoders\.(.*)", r"encoder.\1"), (r"downs\.(\d)\.body\.0\.(.*)", r"down.\1.\2"),
+          (r"ups\.(?P<n>\d)\.body\.0\.(.*)", r"up.{n}.\2"), (r"reduces\.(?P<n>\d)\.(.*)", r"reduce.{n}.\2"),
+          (r"decoders\.(?P<n>\d)\.(.*)", r"decoder.{n}.\2"), (r"embed_conv\.(.*)", r"embed.\1"),
+          (r"((?:refinement|output)\..*)", r"\1"))
+# By a name that each has: swz30/Restormer counts levels from 1, TrainRestormer from the bottom on the way up.
+SCHEMES = {"patch_embed.proj.weight": (AUTHORS, lambda number: number - 1),
+           "embed_conv.weight": (PAPERS, lambda number: BOTTOM - 1 - number)}
 
 
-def _papers(name: str) -> str | None:
-    """A name of TrainRestormer in ours. On its way up it counts from the bottom; None: it is none of its names."""
-    if match := re.fullmatch(r"encoders\.(.*)", name):
-        return f"encoder.{match[1]}"
-    if match := re.fullmatch(r"downs\.(\d)\.body\.0\.(.*)", name):
-        return f"down.{match[1]}.{match[2]}"
-    if match := re.fullmatch(r"ups\.(\d)\.body\.0\.(.*)", name):
-        return f"up.{BOTTOM - 1 - int(match[1])}.{match[2]}"
-    if match := re.fullmatch(r"reduces\.(\d)\.(.*)", name):
-        return f"reduce.{BOTTOM - 1 - int(match[1])}.{match[2]}"
-    if match := re.fullmatch(r"decoders\.(\d)\.(.*)", name):
-        return f"decoder.{BOTTOM - 1 - int(match[1])}.{match[2]}"
-    if match := re.fullmatch(r"embed_conv\.(.*)", name):
-        return f"embed.{match[1]}"
-    return name if re.match(r"(refinement|output)\.", name) else None
+def _in_ours(name: str, patterns: tuple[tuple[str, str], ...], level: Callable[[int], int]) -> str:
+    for pattern, ours in patterns:
+        if match := re.fullmatch(pattern, name):
+            return match.expand(ours.replace("{n}", str(level(int(match["n"])))) if "{n}" in ours else ours)
+    raise ValueError(f"{name}: is not in a Restormer of three channels in and out (dual-pixel ones are not taken)")
 
 
 def _in_our_names(state: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    scheme = _authors if "patch_embed.proj.weight" in state else _papers if "embed_conv.weight" in state else None
+    scheme = next((scheme for name, scheme in SCHEMES.items() if name in state), None)
     if scheme is None:
         raise ValueError("has neither patch_embed.proj.weight (swz30/Restormer) nor embed_conv.weight "
                          "(TrainRestormer): is no Restormer whose names are known")
     renamed = {}
     for name, tensor in state.items():
-        ours = scheme(name)
-        if ours is None:
-            raise ValueError(f"{name}: is not in a Restormer of three channels in and out (dual-pixel ones are not taken)")
+        ours = _in_ours(name, *scheme)
         if match := re.fullmatch(r"((?:encoder|decoder)\.\d+\.\d+|refinement\.\d+)\.(.+)\.(weight|bias|temperature)", ours):
             ours = f"{match[1]}.{PARTS.get(match[2], match[2])}.{match[3]}"
         renamed[ours] = tensor.flatten() if ours.endswith("temperature") else tensor

@@ -120,7 +120,7 @@ def card_of(recipe: dict[str, Any], iteration: int, curve: list[dict[str, str]],
     return {"format": 1, "name": recipe["name"], **shape.card(), "tile": recipe["tile"], "overlap": recipe["overlap"],
             "seed": recipe["seed"], "iterations": iteration, "recipe": recipe, "data": sets,
             "held_out": sorted(held_out),
-            "curve": [[int(row["iteration"]), float(row["psnr"])] for row in curve]}
+            "curve": [[int(row["iteration"]), float(row["psnr"])] for row in curve if math.isfinite(float(row["psnr"]))]}
 
 
 def train(recipe: dict[str, Any], data: Path, folder: Path, workers: int) -> Path:

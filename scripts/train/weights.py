@@ -19,7 +19,7 @@ TYPES = {"F16": np.float16, "F32": np.float32}
 
 def write(path: str | os.PathLike, tensors: Mapping[str, np.ndarray], card: Mapping[str, Any]) -> None:
     """Tensors are float16 or float32. The file stands there once it is whole."""
-    header: dict[str, Any] = {"__metadata__": {"card": json.dumps(card)}}
+    header: dict[str, Any] = {"__metadata__": {"card": json.dumps(card, allow_nan=False)}}
     end = 0
     for name, tensor in tensors.items():
         kind = next((kind for kind, numpy_type in TYPES.items() if tensor.dtype == numpy_type), None)
