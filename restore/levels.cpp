@@ -9,10 +9,6 @@
 namespace shimmer::restore {
 namespace {
 
-std::string SizeText(const cv::Mat& frame) {
-  return std::to_string(frame.cols) + "x" + std::to_string(frame.rows);
-}
-
 template <class Sample>
 cv::Mat LevelsOf(const cv::Mat& frame, cv::Range rows) {
   const double white = WhiteOf(frame.depth());
@@ -31,6 +27,8 @@ cv::Mat LevelsOf(const cv::Mat& frame, cv::Range rows) {
 
 }  // namespace
 
+std::string SizeText(cv::Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+
 double WhiteOf(int depth) { return depth == CV_8U ? 255 : depth == CV_16U ? 65535 : 1; }
 
 void RequireFrame(const cv::Mat& frame, const char* name) {
@@ -47,7 +45,8 @@ int RequireFramePair(const cv::Mat& a, const cv::Mat& b) {
   RequireFrame(a, "a");
   RequireFrame(b, "b");
   if (a.size() != b.size())
-    throw std::invalid_argument("a: is " + SizeText(a) + " px, must be " + SizeText(b) + " as b");
+    throw std::invalid_argument("a: is " + SizeText(a.size()) + " px, must be " + SizeText(b.size()) +
+                                " as b");
   return std::max(a.channels(), b.channels());
 }
 

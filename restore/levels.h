@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
+#include <string>
 
 namespace shimmer::restore {
 
 // 255, 65535 or 1: white in samples of CV_8U, CV_16U or CV_32F.
 double WhiteOf(int depth);
+
+std::string SizeText(cv::Size size);  // "1920x1080"
 
 // A frame: CV_8U (white 255), CV_16U (white 65535) or CV_32F (white 1), of 1 channel (grey) or 3 (RGB).
 // What takes frames throws std::invalid_argument with `name` for any other, and for an empty one.

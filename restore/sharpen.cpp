@@ -18,10 +18,6 @@ namespace {
 
 constexpr int kBlock_px = 16;
 
-std::string SizeText(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height) + " px";
-}
-
 // CV_32FC3 in [0, 1].
 cv::Mat PictureOf(const cv::Mat& frame) {
   cv::Mat picture;
@@ -80,9 +76,9 @@ bool IsFlat(const cv::Mat& tile, double levels) {
 
 void RequireTile(const TileSize& tile, cv::Size frame) {
   if (!tile.fixed || (frame.width >= tile.side_px && frame.height >= tile.side_px)) return;
-  throw std::invalid_argument("frames of " + SizeText(frame) + ": are smaller than the " +
-                              SizeText({tile.side_px, tile.side_px}) +
-                              " that the model takes: must be as large, or another model, or --no-sharpen");
+  throw std::invalid_argument(
+      "frames of " + SizeText(frame) + " px: are smaller than the " + SizeText({tile.side_px, tile.side_px}) +
+      " px that the model takes: must be as large, or another model, or --no-sharpen");
 }
 
 Sharpener::Sharpener(std::shared_ptr<SharpeningNetwork> network, cv::Size frame, const SharpenParams& params)
@@ -108,8 +104,8 @@ Sharpener::Renewal Sharpener::Renew(Tile& tile, const cv::Mat& picture, double r
 cv::Mat Sharpener::Next(const cv::Mat& frame) {
   RequireFrame(frame, "frame");
   if (frame.size() != size_)
-    throw std::invalid_argument("frame is of " + SizeText(frame.size()) + ", must be of " + SizeText(size_) +
-                                " as those before");
+    throw std::invalid_argument("frame is of " + SizeText(frame.size()) + " px, must be of " +
+                                SizeText(size_) + " px as those before");
   const cv::Mat picture = PictureOf(frame);
   std::vector<Renewal> renewals(tiles_.size());
   const auto renew = [&](size_t k) { renewals[k] = Renew(tiles_[k], picture, RoundingOf(frame.depth())); };

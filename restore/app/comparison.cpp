@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "cli/number_text.h"
+#include "restore/levels.h"
 #include "restore/line_deviation.h"
 #include "restore/mask_scores.h"
 #include "restore/psnr.h"
@@ -15,8 +16,6 @@
 
 namespace shimmer::restore::app {
 namespace {
-
-std::string SizeText(cv::Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
 
 // What one frame is measured on.
 struct FramePair {
