@@ -10,13 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "restore/app/evaluation/measures.h"
 #include "restore/rolling.h"
 #include "restore/stability.h"
 #include "sim/dataset/frame_reader.h"
 
 namespace shimmer::restore::app {
-
-using Value = std::optional<double>;  // absent where it is not defined
 
 struct FrameScores {
   Value psnr_db, ssim_opencv, ssim_scikit_image, psnr_y_db, ssim_y;  // of A against B

@@ -11,8 +11,8 @@
 #include "sim/app/plan_text.h"
 #include "sim/app/preview.h"
 #include "sim/app/report.h"
-#include "sim/app/shard_option.h"
 #include "sim/app/verify.h"
+#include "sim/dataset/shard_option.h"
 
 namespace shimmer::app {
 namespace {
@@ -65,7 +65,7 @@ int RunShimmer(int argc, const char* const* argv, const std::atomic<bool>& (*lis
       ->transform(CLI::AsSizeValue(false))
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 50).description(""));
   generate_command->add_option_function<std::string>(
-      "--shard", [&](const std::string& text) { generate.shard = ShardOf(text); },
+      "--shard", [&](const std::string& text) { generate.shard = dataset::ShardOf(text); },
       "make a part: i/N, i from 0, or slurm (this task of a job array)");
   generate_command->add_flag("--retry-failed", generate.retry_failed, "also clips that failed before");
   generate_command->add_flag("--dry-run", generate.dry_run,

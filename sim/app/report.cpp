@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cli/html.h"
 #include "cli/number_text.h"
-#include "sim/app/html.h"
+#include "cli/report_style.h"
 #include "sim/app/job.h"
 #include "sim/app/preview.h"
 #include "sim/app/report_charts.h"
 #include "sim/app/report_drawn.h"
 #include "sim/app/report_facts.h"
-#include "sim/app/report_style.h"
 #include "sim/app/report_summary.h"
 
 namespace shimmer::app {
@@ -22,8 +22,8 @@ constexpr int64_t kMostErrors = 200;
 
 std::string Section(const std::string& id, const std::string& title, const std::string& note,
                     const std::string& body) {
-  return "<section id=\"" + id + "\">\n<h2>" + title + "</h2>\n<p>" + EscapeHtml(note) + "</p>\n" + body +
-         "</section>\n";
+  return "<section id=\"" + id + "\">\n<h2>" + title + "</h2>\n<p>" + cli::EscapeHtml(note) + "</p>\n" +
+         body + "</section>\n";
 }
 
 std::string Charts(const std::string& charts) { return "<div class=\"charts\">\n" + charts + "</div>\n"; }
@@ -48,23 +48,23 @@ std::string SheetHtml(const dataset::DatasetReader& reader, const std::vector<st
                  "<div class=\"sheet\" tabindex=\"0\"><img alt=\"Clean frames, turbulent frames, tilt and "
                  "sigma of some clips, side by side\" " +
                      size + " src=\"data:image/jpeg;base64," +
-                     Base64(dataset::EncodeJpeg(sheet, kJpegQuality)) + "\"></div>\n");
+                     cli::Base64(dataset::EncodeJpeg(sheet, kJpegQuality)) + "\"></div>\n");
 }
 
 std::string MeasuredHtml(const ReportFacts& facts) {
   std::string motion;
   if (!facts.shake_rms_px.numbers.empty())
     motion += HistogramHtml({"shake_rms_px", "px", {"RMS of the camera's shift off its first place"}},
-                            facts.shake_rms_px.numbers, AxisKind::kLinear);
+                            facts.shake_rms_px.numbers, cli::AxisKind::kLinear);
   if (!facts.moving_share.numbers.empty())
     motion += HistogramHtml({"moving_share", "", {"share of the frame that moving objects cover, mean"}},
-                            facts.moving_share.numbers, AxisKind::kLinear);
+                            facts.moving_share.numbers, cli::AxisKind::kLinear);
   return Section("measured", motion.empty() ? "Tilt RMS and sigma" : "Tilt RMS, sigma and motion",
                  "One value a clip, over all pixels of the frames that were written.",
                  Charts(HistogramHtml({"tilt_rms_px", "px", {"RMS of the shift along an axis"}},
-                                      facts.tilt_rms_px.numbers, AxisKind::kLinear) +
+                                      facts.tilt_rms_px.numbers, cli::AxisKind::kLinear) +
                         HistogramHtml({"mean_sigma_px", "px", {"mean of the blur's sigma"}},
-                                      facts.mean_sigma_px.numbers, AxisKind::kLinear) +
+                                      facts.mean_sigma_px.numbers, cli::AxisKind::kLinear) +
                         motion));
 }
 
@@ -98,7 +98,7 @@ std::string FailureRow(const std::string& error, const Failure& failure) {
   for (const int64_t clip : failure.first_clips) which += (which.empty() ? "" : ", ") + std::to_string(clip);
   const int64_t more = failure.clips - std::ssize(failure.first_clips);
   if (more > 0) which += " and " + cli::Grouped(more) + " more";
-  return "<tr data-clips=\"" + std::to_string(failure.clips) + "\"><td>" + EscapeHtml(error) +
+  return "<tr data-clips=\"" + std::to_string(failure.clips) + "\"><td>" + cli::EscapeHtml(error) +
          "</td><td class=\"count\">" + cli::Grouped(failure.clips) + "</td><td>" + which + "</td></tr>\n";
 }
 
@@ -118,7 +118,7 @@ std::string FailuresHtml(const ReportFacts& facts) {
   }
   if (clips > shown_clips)
     rows += "<tr data-clips=\"" + std::to_string(clips - shown_clips) + "\"><td>" +
-            EscapeHtml("and " + cli::Counted(std::ssize(failures) - shown, "other error")) +
+            cli::EscapeHtml("and " + cli::Counted(std::ssize(failures) - shown, "other error")) +
             "</td><td class=\"count\">" + cli::Grouped(clips - shown_clips) + "</td><td></td></tr>\n";
   return Section(
       "failures", "Failures",
@@ -137,7 +137,7 @@ std::string ReportHtml(const std::filesystem::path& folder) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      EscapeHtml(config.fixed().output.name) + ": report</title>\n<style>" + kReportStyle +
+      cli::EscapeHtml(config.fixed().output.name) + ": report</title>\n<style>" + cli::kReportStyle +
       "</style>\n</head>\n<body>\n" + SummaryHtml(reader, config, facts);
   if (reader.clips().empty())
     html += "<p class=\"empty\">No clip is done: there is nothing to show yet.</p>\n";
@@ -145,7 +145,7 @@ std::string ReportHtml(const std::filesystem::path& folder) {
     html += SheetHtml(reader, config.fixed().output.truth) + MeasuredHtml(facts) + DrawnHtml(config, facts) +
             SourcesHtml(reader.description().value("sources", Json::array()), facts);
   return html + FailuresHtml(facts) + "<details>\n<summary>Config</summary>\n<pre>" +
-         EscapeHtml(config.resolved().dump(2)) + "</pre>\n</details>\n</body>\n</html>\n";
+         cli::EscapeHtml(config.resolved().dump(2)) + "</pre>\n</details>\n</body>\n</html>\n";
 }
 
 std::filesystem::path WriteReport(const std::filesystem::path& folder) {

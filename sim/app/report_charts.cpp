@@ -5,40 +5,27 @@
 #include <cstdio>
 #include <numeric>
 
+#include "cli/html.h"
 #include "cli/number_text.h"
-#include "sim/app/html.h"
+#include "cli/svg.h"
 
 namespace shimmer::app {
 namespace {
+
+using cli::AxisKind;
+using cli::EscapeHtml;
+using cli::Line;
+using cli::Px;
+using cli::Rect;
+using cli::Text;
+using cli::Ticks;
 
 // px of the histogram's own coordinates; the page shows it at about this size.
 constexpr double kWidth = 360, kHeight = 200, kLeft = 54, kRight = 12, kTop = 24, kBottom = 42;
 constexpr double kBase = kHeight - kBottom, kWidestBar = 36;
 
-std::string Px(double px) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", px);
-  return text;
-}
-
 std::string WithUnit(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
-}
-
-std::string Text(double x, double y, const std::string& anchor, const std::string& text,
-                 const std::string& kind = "") {
-  return "<text x=\"" + Px(x) + "\" y=\"" + Px(y) + "\" text-anchor=\"" + anchor + "\"" +
-         (kind.empty() ? "" : " class=\"" + kind + "\"") + ">" + EscapeHtml(text) + "</text>";
-}
-
-std::string Line(double x1, double y1, double x2, double y2, const std::string& kind) {
-  return "<line class=\"" + kind + "\" x1=\"" + Px(x1) + "\" y1=\"" + Px(y1) + "\" x2=\"" + Px(x2) +
-         "\" y2=\"" + Px(y2) + "\"/>";
-}
-
-std::string Rect(const std::string& kind, double x, double y, double width, double height) {
-  return "<rect class=\"" + kind + "\" x=\"" + Px(x) + "\" y=\"" + Px(y) + "\" width=\"" + Px(width) +
-         "\" height=\"" + Px(height) + "\"/>";
 }
 
 std::string Figure(const ChartTexts& texts, const std::string& body) {

@@ -19,7 +19,7 @@ struct ChartTexts {
 };
 
 // values: of clips; finite, ascending. None: the chart says so.
-std::string HistogramHtml(const ChartTexts& texts, std::span<const double> values, AxisKind kind);
+std::string HistogramHtml(const ChartTexts& texts, std::span<const double> values, cli::AxisKind kind);
 
 struct BarRow {
   std::string value;

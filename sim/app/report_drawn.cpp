@@ -59,9 +59,9 @@ std::string ChartOf(const Key& key, const Json& distribution, const Values& valu
       .key = key.path, .unit = key.field.unit, .notes = {key.field.help, DistributionText(distribution)}};
   if (distribution.contains(kChoice) || !values.others.empty())
     return BarsHtml(texts, RowsOf(values, distribution));
-  const AxisKind kind = key.kind == Kind::kInteger           ? AxisKind::kWhole
-                        : distribution.contains(kLogUniform) ? AxisKind::kLogarithmic
-                                                             : AxisKind::kLinear;
+  const cli::AxisKind kind = key.kind == Kind::kInteger           ? cli::AxisKind::kWhole
+                             : distribution.contains(kLogUniform) ? cli::AxisKind::kLogarithmic
+                                                                  : cli::AxisKind::kLinear;
   return HistogramHtml(texts, values.numbers, kind);
 }
 

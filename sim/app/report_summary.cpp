@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cli/html.h"
 #include "cli/number_text.h"
 #include "sim/app/clean_frames.h"
-#include "sim/app/html.h"
 #include "sim/app/job.h"
 
 namespace shimmer::app {
@@ -19,12 +19,12 @@ std::string Joined(std::string text, const std::string& word) {
 }
 
 std::string Tile(const std::string& name, const std::string& value, bool bad = false) {
-  return std::string("<div class=\"tile") + (bad ? " bad" : "") + "\"><b>" + EscapeHtml(value) +
-         "</b><span>" + EscapeHtml(name) + "</span></div>\n";
+  return std::string("<div class=\"tile") + (bad ? " bad" : "") + "\"><b>" + cli::EscapeHtml(value) +
+         "</b><span>" + cli::EscapeHtml(name) + "</span></div>\n";
 }
 
 std::string Row(const std::string& name, const std::string& value) {
-  return "<div><dt>" + EscapeHtml(name) + "</dt><dd>" + EscapeHtml(value) + "</dd></div>\n";
+  return "<div><dt>" + cli::EscapeHtml(name) + "</dt><dd>" + cli::EscapeHtml(value) + "</dd></div>\n";
 }
 
 // Of the clips that the config asks for. (An earlier one may have asked for more.)
@@ -79,17 +79,17 @@ std::string SummaryHtml(const dataset::DatasetReader& reader, const ConfigFile& 
   const Json& output = file.resolved().at("output");
   const int64_t frames = KeptFrameCount(config), done = std::ssize(reader.clips());
   const int64_t failed = std::ssize(reader.failed());
-  std::string html =
-      "<header>\n<p class=\"kind\">Shimmer data set</p>\n<h1>" + EscapeHtml(config.output.name) +
-      "</h1>\n<p class=\"quiet\">" +
-      EscapeHtml("layout " + output.at("layout").get<std::string>() + ", " + cli::Counted(frames, "frame") +
-                 " a clip, " + std::to_string(EncodingOf(config.output).bits) + "-bit " +
-                 output.at("format").get<std::string>()) +
-      "</p>\n</header>\n<div class=\"tiles\">\n" +
-      Tile("of " + cli::Counted(config.clips, "clip") + " done", cli::Grouped(done)) +
-      Tile("failed", cli::Grouped(failed), failed > 0) +
-      Tile("missing", cli::Grouped(Missing(reader, config.clips))) +
-      Tile("frames", cli::Grouped(done * frames));
+  std::string html = "<header>\n<p class=\"kind\">Shimmer data set</p>\n<h1>" +
+                     cli::EscapeHtml(config.output.name) + "</h1>\n<p class=\"quiet\">" +
+                     cli::EscapeHtml("layout " + output.at("layout").get<std::string>() + ", " +
+                                     cli::Counted(frames, "frame") + " a clip, " +
+                                     std::to_string(EncodingOf(config.output).bits) + "-bit " +
+                                     output.at("format").get<std::string>()) +
+                     "</p>\n</header>\n<div class=\"tiles\">\n" +
+                     Tile("of " + cli::Counted(config.clips, "clip") + " done", cli::Grouped(done)) +
+                     Tile("failed", cli::Grouped(failed), failed > 0) +
+                     Tile("missing", cli::Grouped(Missing(reader, config.clips))) +
+                     Tile("frames", cli::Grouped(done * frames));
   if (facts.file_bytes > 0) html += Tile("on disk", cli::BytesText(facts.file_bytes));
   const Json& description = reader.description();
   return html + "</div>\n<dl class=\"summary\">\n" +

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sim/app/bins.h"
+#include "cli/ticks.h"
 #include "sim/app/colour_maps.h"
 #include "sim/app/sheet_page.h"
 
@@ -45,7 +45,7 @@ cv::Mat Marked(const cv::Mat& frame, int cell_px, const std::optional<SceneMarks
 }
 
 // A round end of a scale that is not below value; 1 for 0.
-double ScaleEnd(double value) { return value > 0 ? RoundUp(value, {1, 1.5, 2, 3, 4, 5, 6, 8}) : 1; }
+double ScaleEnd(double value) { return value > 0 ? cli::RoundUp(value, {1, 1.5, 2, 3, 4, 5, 6, 8}) : 1; }
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -1,7 +1,7 @@
 #pragma once
 
-namespace shimmer::app {
+namespace shimmer::cli {
 
 extern const char* const kReportStyle;  // CSS: light and dark, wide and narrow, screen and paper
 
-}  // namespace shimmer::app
+}  // namespace shimmer::cli

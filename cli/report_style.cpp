@@ -1,6 +1,6 @@
-#include "sim/app/report_style.h"
+#include "cli/report_style.h"
 
-namespace shimmer::app {
+namespace shimmer::cli {
 
 const char* const kReportStyle = R"css(
 :root { color-scheme: light dark;
@@ -83,4 +83,4 @@ pre { overflow-x: auto; padding: 14px 16px; background: var(--card); border: 1px
   pre { white-space: pre-wrap; overflow-wrap: anywhere; } }
 )css";
 
-}  // namespace shimmer::app
+}  // namespace shimmer::cli

@@ -1,8 +1,8 @@
-#include "sim/app/html.h"
+#include "cli/html.h"
 
 #include <algorithm>
 
-namespace shimmer::app {
+namespace shimmer::cli {
 namespace {
 
 constexpr const char* kReplacement = "\xEF\xBF\xBD";  // U+FFFD
@@ -63,4 +63,4 @@ std::string Base64(std::span<const uint8_t> bytes) {
   return text;
 }
 
-}  // namespace shimmer::app
+}  // namespace shimmer::cli

@@ -5,11 +5,11 @@
 
 #include "sim/dataset/shard.h"
 
-namespace shimmer::app {
+namespace shimmer::dataset {
 
 // "3/8": shard 3 of 0 .. 7. "slurm": by this task's number in its job array, whatever number the array begins
 // with and whatever step it has. Throws std::invalid_argument for anything else, and for "slurm" outside of a
 // job array.
-dataset::Shard ShardOf(const std::string& text);
+Shard ShardOf(const std::string& text);
 
-}  // namespace shimmer::app
+}  // namespace shimmer::dataset

@@ -1,4 +1,4 @@
-#include "sim/app/shard_option.h"
+#include "sim/dataset/shard_option.h"
 
 #include <charconv>
 #include <cstdlib>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace shimmer::app {
+namespace shimmer::dataset {
 namespace {
 
 std::optional<int64_t> WholeNumber(std::string_view text) {
@@ -25,11 +25,11 @@ int64_t SlurmNumber(const char* name, std::optional<int64_t> otherwise = {}) {
                               ", must be a number; is this a task of a job array (sbatch --array=0-7)?");
 }
 
-dataset::Shard OfSlurmTask() {
+Shard OfSlurmTask() {
   const int64_t id = SlurmNumber("SLURM_ARRAY_TASK_ID"), count = SlurmNumber("SLURM_ARRAY_TASK_COUNT"),
                 first = SlurmNumber("SLURM_ARRAY_TASK_MIN", 0),
                 step = SlurmNumber("SLURM_ARRAY_TASK_STEP", 1);
-  const dataset::Shard shard{.index = step > 0 ? (id - first) / step : -1, .count = count};
+  const Shard shard{.index = step > 0 ? (id - first) / step : -1, .count = count};
   // An array of scattered numbers, "0,3,7", or one that was limited to some of them.
   if (shard.index < 0 || shard.index >= count || first + shard.index * step != id)
     throw std::invalid_argument(
@@ -41,7 +41,7 @@ dataset::Shard OfSlurmTask() {
 
 }  // namespace
 
-dataset::Shard ShardOf(const std::string& text) {
+Shard ShardOf(const std::string& text) {
   if (text == "slurm") return OfSlurmTask();
   const size_t slash = text.find('/');
   const auto index = WholeNumber(std::string_view(text).substr(0, slash));
@@ -52,4 +52,4 @@ dataset::Shard ShardOf(const std::string& text) {
   return {.index = *index, .count = *count};
 }
 
-}  // namespace shimmer::app
+}  // namespace shimmer::dataset
