@@ -16,6 +16,12 @@ constexpr int kLeastSide_px = 64;  // for its pyramid; smaller frames get their 
 // Turbulence is finer than the motion that these are for.
 constexpr float kRefinedAlpha = 10, kRefinedDelta = 10;
 
+cv::Mat Grey(const cv::Mat& frame) {
+  cv::Mat grey = frame;
+  if (frame.channels() == 3) cv::cvtColor(frame, grey, cv::COLOR_RGB2GRAY);
+  return grey;
+}
+
 class Dis : public DenseFlow {
  public:
   explicit Dis(DisPreset preset)
@@ -28,17 +34,22 @@ class Dis : public DenseFlow {
 
  private:
   cv::Mat Compute(const cv::Mat& from, const cv::Mat& to) override {
-    const auto grey = [](const cv::Mat& frame) {
-      cv::Mat result = frame;
-      if (frame.channels() == 3) cv::cvtColor(frame, result, cv::COLOR_RGB2GRAY);
-      return result;
-    };
     cv::Mat flow;
-    dis_->calc(grey(from), grey(to), flow);
+    dis_->calc(Grey(from), Grey(to), flow);
     return flow;
   }
 
   cv::Ptr<cv::DISOpticalFlow> dis_;
+};
+
+// With the numbers of OpenCV's own example.
+class Farneback : public DenseFlow {
+ private:
+  cv::Mat Compute(const cv::Mat& from, const cv::Mat& to) override {
+    cv::Mat flow;
+    cv::calcOpticalFlowFarneback(Grey(from), Grey(to), flow, 0.5, 3, 15, 3, 5, 1.2, 0);
+    return flow;
+  }
 };
 
 cv::Mat Bytes(const cv::Mat& frame) {
@@ -86,6 +97,10 @@ std::unique_ptr<DenseFlow> DisFlow(DisPreset preset) { return std::make_unique<D
 
 FlowMaker DisFlows() {
   return [] { return DisFlow(); };
+}
+
+FlowMaker FarnebackFlows() {
+  return [] { return std::make_unique<Farneback>(); };
 }
 
 cv::Mat HalvedIfLarge(const cv::Mat& frame) {

@@ -40,6 +40,10 @@ std::unique_ptr<DenseFlow> DisFlow(DisPreset preset = DisPreset::kFast);
 using FlowMaker = std::function<std::unique_ptr<DenseFlow>()>;
 FlowMaker DisFlows();
 
+// OpenCV's flow by the expansion of neighbourhoods in polynomials (Farneback 2003): another, to hold DIS
+// against.
+FlowMaker FarnebackFlows();
+
 inline constexpr int kLargeSide_px = 1000;
 
 // Half above kLargeSide_px, else the frame itself: by means of 2x2 px, a last odd row or column left out.

@@ -52,9 +52,10 @@ std::shared_ptr<SharpeningNetwork> OpenNetwork(const std::filesystem::path& file
       file.string() + ": must be weights in .safetensors, or a network in .onnx or .pt (TorchScript)");
 }
 
+std::span<const unsigned char> ShippedModel() { return {shimmer_shipped_model, shimmer_shipped_model_end}; }
+
 std::shared_ptr<SharpeningNetwork> ShippedNetwork() {
-  const std::string bytes(reinterpret_cast<const char*>(shimmer_shipped_model),
-                          static_cast<size_t>(shimmer_shipped_model_end - shimmer_shipped_model));
+  const std::string bytes(ShippedModel().begin(), ShippedModel().end());
   return std::make_shared<RestormerNetwork>(ReadSafeTensors(bytes, "the model that unshimmer carries"));
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "restore/sharpening_network.h"
 
@@ -14,5 +15,6 @@ std::shared_ptr<SharpeningNetwork> OpenNetwork(const std::filesystem::path& file
 
 // That which the program carries: restore/models/shimmer.safetensors, trained by scripts/train/reproduce.sh.
 std::shared_ptr<SharpeningNetwork> ShippedNetwork();
+std::span<const unsigned char> ShippedModel();  // its file
 
 }  // namespace shimmer::restore

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "restore/levels.h"
+#include "restore/regions.h"
 
 namespace shimmer::restore {
 namespace {
@@ -19,6 +20,8 @@ double SquaredDifference(const cv::Mat& a, const cv::Mat& b) {
   return sum / (a.cols * a.channels());
 }
 
+double Decibels(double mean_square) { return 10 * std::log10(255.0 * 255.0 / mean_square); }
+
 template <class LevelsOf>
 double PsnrOf(const cv::Mat& a, const cv::Mat& b, const LevelsOf& levels_of) {
   const int channels = RequireFramePair(a, b);
@@ -26,12 +29,26 @@ double PsnrOf(const cv::Mat& a, const cv::Mat& b, const LevelsOf& levels_of) {
   ForRows(a.rows, [&](cv::Range rows) {
     sum += SquaredDifference(levels_of(a, rows, channels), levels_of(b, rows, channels));
   });
-  return 10 * std::log10(255.0 * 255.0 * a.rows / sum);
+  return Decibels(sum / a.rows);
 }
 
 }  // namespace
 
 double Psnr(const cv::Mat& a, const cv::Mat& b) { return PsnrOf(a, b, Levels); }
+
+std::vector<std::optional<double>> PsnrIn(const cv::Mat& a, const cv::Mat& b,
+                                          std::span<const cv::Mat> regions) {
+  const int channels = RequireFramePair(a, b);
+  std::vector<std::optional<double>> results = MeansIn(a.size(), regions, [&](cv::Range rows) {
+    cv::Mat difference = Levels(a, rows, channels) - Levels(b, rows, channels);
+    difference = difference.mul(difference);
+    return difference.reshape(1);
+  });
+  for (std::optional<double>& result : results)
+    if (result) result = Decibels(*result);
+  return results;
+}
+
 double PsnrY(const cv::Mat& a, const cv::Mat& b) { return PsnrOf(a, b, LumaLevels); }
 
 }  // namespace shimmer::restore

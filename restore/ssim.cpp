@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "restore/levels.h"
+#include "restore/regions.h"
 
 namespace shimmer::restore {
 namespace {
@@ -39,38 +40,50 @@ cv::Mat LocalMean(const cv::Mat& values, const Window& window) {
   return mean;
 }
 
-// Of the index of samples [first, end) in each of these rows.
-double SumOfSimilarity(const cv::Mat& a, const cv::Mat& b, const Window& window, cv::Range rows, int first,
-                       int end) {
+// Of each sample in these rows of levels, CV_64F of as many columns as a row has samples.
+cv::Mat Similarity(const cv::Mat& a, const cv::Mat& b, const Window& window, cv::Range rows) {
   const cv::Mat mean_a = LocalMean(a, window), mean_b = LocalMean(b, window);
   const cv::Mat square_a = LocalMean(a.mul(a), window), square_b = LocalMean(b.mul(b), window),
                 product = LocalMean(a.mul(b), window);
-  double sum = 0;
+  cv::Mat similarity(rows.size(), a.cols * a.channels(), CV_64F);
   for (int y = rows.start; y < rows.end; ++y)
-    for (int i = first; i < end; ++i) {
+    for (int i = 0; i < similarity.cols; ++i) {
       const double ma = mean_a.ptr<double>(y)[i], mb = mean_b.ptr<double>(y)[i];
       const double variances = square_a.ptr<double>(y)[i] - ma * ma + (square_b.ptr<double>(y)[i] - mb * mb);
       const double covariance = product.ptr<double>(y)[i] - ma * mb;
-      sum += (2 * ma * mb + kC1) * (2 * window.variance_factor * covariance + kC2) /
-             ((ma * ma + mb * mb + kC1) * (window.variance_factor * variances + kC2));
+      similarity.at<double>(y - rows.start, i) =
+          (2 * ma * mb + kC1) * (2 * window.variance_factor * covariance + kC2) /
+          ((ma * ma + mb * mb + kC1) * (window.variance_factor * variances + kC2));
     }
-  return sum;
+  return similarity;
+}
+
+// The same of rows of two frames.
+template <class LevelsOf>
+cv::Mat SimilarityOfRows(const cv::Mat& a, const cv::Mat& b, const Window& window, cv::Range rows,
+                         const LevelsOf& levels_of) {
+  const int channels = RequireFramePair(a, b);
+  // What their windows see; at the frame's border OpenCV adds what lies beyond.
+  const cv::Range seen(std::max(rows.start - window.radius_px, 0),
+                       std::min(rows.end + window.radius_px, a.rows));
+  return Similarity(levels_of(a, seen, channels), levels_of(b, seen, channels), window,
+                    {rows.start - seen.start, rows.end - seen.start});
 }
 
 template <class LevelsOf>
 double MeanSimilarity(const cv::Mat& a, const cv::Mat& b, const Window& window, const LevelsOf& levels_of) {
-  const int channels = RequireFramePair(a, b), cropped = window.cropped_px;
+  RequireFramePair(a, b);
+  const int cropped = window.cropped_px;
   double sum = 0, counted = 0;
   ForRows(a.rows - 2 * cropped, [&](cv::Range counting) {
-    const cv::Range rows(counting.start + cropped, counting.end + cropped);
-    // What their windows see; at the frame's border OpenCV adds what lies beyond.
-    const cv::Range seen(std::max(rows.start - window.radius_px, 0),
-                         std::min(rows.end + window.radius_px, a.rows));
-    const cv::Mat levels_a = levels_of(a, seen, channels), levels_b = levels_of(b, seen, channels);
-    const int used = levels_a.channels();  // Y is one
-    sum += SumOfSimilarity(levels_a, levels_b, window, {rows.start - seen.start, rows.end - seen.start},
-                           cropped * used, (a.cols - cropped) * used);
-    counted += static_cast<double>(rows.size()) * (a.cols - 2 * cropped) * used;
+    const cv::Mat similarity =
+        SimilarityOfRows(a, b, window, {counting.start + cropped, counting.end + cropped}, levels_of);
+    const int used = similarity.cols / a.cols;  // channels; Y is one
+    for (int y = 0; y < similarity.rows; ++y) {
+      const auto* row = similarity.ptr<double>(y);
+      for (int i = cropped * used; i < (a.cols - cropped) * used; ++i) sum += row[i];
+    }
+    counted += static_cast<double>(counting.size()) * (a.cols - 2 * cropped) * used;
   });
   return sum / counted;
 }
@@ -78,6 +91,13 @@ double MeanSimilarity(const cv::Mat& a, const cv::Mat& b, const Window& window, 
 }  // namespace
 
 double SsimOpenCv(const cv::Mat& a, const cv::Mat& b) { return MeanSimilarity(a, b, kOpenCv, Levels); }
+
+std::vector<std::optional<double>> SsimIn(const cv::Mat& a, const cv::Mat& b,
+                                          std::span<const cv::Mat> regions) {
+  RequireFramePair(a, b);
+  return MeansIn(a.size(), regions,
+                 [&](cv::Range rows) { return SimilarityOfRows(a, b, kOpenCv, rows, Levels); });
+}
 
 std::optional<double> SsimScikitImage(const cv::Mat& a, const cv::Mat& b) {
   RequireFramePair(a, b);

@@ -3,6 +3,8 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace shimmer::restore {
 
@@ -15,6 +17,10 @@ namespace shimmer::restore {
 // As OpenCV's samples: a Gaussian window of 11x11 px, sigma 1.5; all pixels count, what lies beyond the
 // border is its reflection (BORDER_REFLECT_101).
 double SsimOpenCv(const cv::Mat& a, const cv::Mat& b);
+
+// The same of the px of regions of a frame (regions.h), whose windows see what is around them too.
+std::vector<std::optional<double>> SsimIn(const cv::Mat& a, const cv::Mat& b,
+                                          std::span<const cv::Mat> regions);
 
 // As scikit-image's structural_similarity by default, with data_range=255 (channel_axis=-1 for RGB): a flat
 // window of 7x7 px, sample variance (divided by 48); pixels less than 3 px from the border do not count.

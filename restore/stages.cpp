@@ -234,27 +234,29 @@ class Sharpen : public Stage {
 
 }  // namespace
 
-std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const VideoFacts& facts,
-                                             Sharpener* sharpener) {
-  std::vector<std::unique_ptr<Stage>> stages;
-  if (plan.grey) stages.push_back(std::make_unique<OneChannel>());
+std::vector<NamedStage> StagesOf(const RestorePlan& plan, const VideoFacts& facts, Sharpener* sharpener) {
+  std::vector<NamedStage> stages;
+  const auto add = [&](const char* name, std::unique_ptr<Stage> stage) {
+    stages.push_back({name, std::move(stage)});
+  };
+  if (plan.grey) add("one channel", std::make_unique<OneChannel>());
   if (plan.fill)
-    stages.push_back(std::make_unique<Fill>(facts));
+    add("stabilise", std::make_unique<Fill>(facts));
   else if (plan.stabilise)
-    stages.push_back(std::make_unique<Move>(facts));
-  stages.push_back(std::make_unique<Keep>());
-  if (plan.segment) stages.push_back(std::make_unique<Segment>(facts.scene->segment));
+    add("stabilise", std::make_unique<Move>(facts));
+  add("keep", std::make_unique<Keep>());
+  if (plan.segment) add("segment", std::make_unique<Segment>(facts.scene->segment));
   if (plan.stack) {
-    stages.push_back(std::make_unique<Stack>(
-        BackgroundParams{.ahead = plan.ahead, .registered = plan.registered, .scene = facts.scene->reference},
-        facts.scene->segment.scene));
-    stages.push_back(std::make_unique<Blend>());
+    const BackgroundParams params{
+        .ahead = plan.ahead, .registered = plan.registered, .scene = facts.scene->reference};
+    add("stack", std::make_unique<Stack>(params, facts.scene->segment.scene));
+    add("blend", std::make_unique<Blend>());
   }
   const bool cut = plan.area.size() != plan.size;
-  if (cut) stages.push_back(std::make_unique<Cut>(plan.area - plan.picture.tl()));
-  if (plan.sharpen) stages.push_back(std::make_unique<Sharpen>(*sharpener));
+  if (cut) add("cut", std::make_unique<Cut>(plan.area - plan.picture.tl()));
+  if (plan.sharpen) add("sharpen", std::make_unique<Sharpen>(*sharpener));
   if (!cut && plan.picture.size() != plan.size)
-    stages.push_back(std::make_unique<PutBack>(facts.changing.first, plan.picture));
+    add("put back", std::make_unique<PutBack>(facts.changing.first, plan.picture));
   return stages;
 }
 

@@ -30,8 +30,12 @@ class Stage {
   virtual std::vector<FrameOnWay> Rest() = 0;  // after the last
 };
 
+struct NamedStage {
+  const char* name;  // "stabilise", "segment", "stack", "blend", "sharpen"; of others what they do
+  std::unique_ptr<Stage> stage;
+};
+
 // Those that the plan names, in order. sharpener: of frames of SharpenedSize, where the plan sharpens.
-std::vector<std::unique_ptr<Stage>> StagesOf(const RestorePlan& plan, const VideoFacts& facts,
-                                             Sharpener* sharpener);
+std::vector<NamedStage> StagesOf(const RestorePlan& plan, const VideoFacts& facts, Sharpener* sharpener);
 
 }  // namespace shimmer::restore

@@ -1,11 +1,11 @@
 #include "restore/app/commands.h"
 
-#include <map>
-
 #include "cli/command_line.h"
 #include "cli/exit_codes.h"
 #include "restore/app/compare.h"
+#include "restore/app/evaluation/evaluate_options.h"
 #include "restore/app/restore.h"
+#include "restore/app/settings_options.h"
 
 namespace shimmer::restore::app {
 
@@ -42,39 +42,7 @@ int RunUnshimmer(int argc, const char* const* argv, const std::atomic<bool>& (*l
   const auto add_restore_options = [&](CLI::App& command) {
     command.add_option("VIDEO", restore.video, source + ", or the folder of a clip that shimmer made")
         ->required();
-    command
-        .add_option("--border", restore.params.border,
-                    "what a steadied frame does not see: fill takes it from neighbouring "
-                    "frames (default), crop cuts to what all frames see")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, Border>{{"fill", Border::kFill}, {"crop", Border::kCrop}}));
-    command.add_flag("!--no-stabilise", restore.params.stabilise, "take the camera to have stood");
-    command
-        .add_option(
-            "--segment", restore.params.method,
-            "how what moves is found: fused, by what lies outside of the still scene (default), or aof, the "
-            "paper's averaged flow")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, SegmentMethod>{
-            {"fused", SegmentMethod::kFused}, {"aof", SegmentMethod::kAof}}));
-    command.add_option(
-        "--flow", restore.flow,
-        "the optical flow by which what moves is found: dis, OpenCV's (default), or a network's, a file of "
-        "TorchScript as raft.pt, in builds that have it");
-    command
-        .add_option("--register", restore.params.registered,
-                    "whether frames are registered to one another before they are averaged: auto (default), "
-                    "on or off")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Register>{
-            {"auto", Register::kAuto}, {"on", Register::kOn}, {"off", Register::kOff}}));
-    command.add_flag("!--no-segment", restore.params.segment, "take it that nothing moves");
-    command.add_flag("!--no-stack", restore.params.stack, "leave the turbulence as it is: stabilise alone");
-    CLI::Option* no_sharpen =
-        command.add_flag("!--no-sharpen", restore.sharpen, "leave out the network that sharpens");
-    command
-        .add_option("--model", restore.model,
-                    "the network that sharpens: weights in .safetensors, or any in .onnx or, in builds that "
-                    "have TorchScript, .pt (default: the one that unshimmer carries)")
-        ->excludes(no_sharpen);
+    AddSettingsOptions(command, restore.settings);
     AddOpticsOptions(command, restore.optics);
     command.add_option("--threads", restore.threads, "number of threads (default: all)")
         ->check(CLI::Range(1, 4096));
@@ -94,11 +62,17 @@ int RunUnshimmer(int argc, const char* const* argv, const std::atomic<bool>& (*l
       app.add_subcommand("plan", "print what VIDEO is like, and what restore would skip");
   add_restore_options(*plan_command);
 
+  EvaluateOptions evaluate;
+  CLI::App* evaluate_command =
+      app.add_subcommand("evaluate", "restore clips whose truth is known, and hold every stage against it");
+  AddEvaluateOptions(*evaluate_command, evaluate);
+
   try {
     if (argc > 1 && argv[1][0] != '-') cli::RequireCommand(app, argv[1]);
     app.parse(argc, argv);
     if (restore_command->parsed()) return RestoreVideo(restore, listen());
     if (plan_command->parsed()) return PrintPlan(restore, listen());
+    if (evaluate_command->parsed()) return Evaluate(evaluate, listen());
     return Compare(compare, listen());
   } catch (...) {
     return cli::ReportCaught(app);
