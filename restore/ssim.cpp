@@ -28,33 +28,48 @@ constexpr Window kScikitImage{.radius_px = 3,
                               .cropped_px = 3,
                               .variance_factor = 49.0 / 48};
 
-cv::Mat LocalMean(const cv::Mat& values, const Window& window) {
+void LocalMean(const cv::Mat& values, const Window& window, cv::Mat& mean) {
   const int side = 2 * window.radius_px + 1;
-  cv::Mat mean;
   if (window.sigma_px > 0) {
     const cv::Mat kernel = cv::getGaussianKernel(side, window.sigma_px, CV_64F);
     cv::sepFilter2D(values, mean, CV_64F, kernel, kernel, {-1, -1}, 0, window.border);
   } else {
     cv::boxFilter(values, mean, CV_64F, {side, side}, {-1, -1}, true, window.border);
   }
-  return mean;
 }
 
-// Of each sample in these rows of levels, CV_64F of as many columns as a row has samples.
+// Memory for rows of a frame, used again by a thread: fresh pages cost as much as the work in them.
+struct Scratch {
+  cv::Mat sum, difference, square, mean_sum, mean_difference, square_sum, square_difference;
+};
+
+// Of each sample in these rows of levels, CV_64F of as many columns as a row has samples. From the sum s and
+// the difference d of the two, which need four means where a and b need five: the variance of s is va + vb +
+// 2 cab, that of d is va + vb - 2 cab.
 cv::Mat Similarity(const cv::Mat& a, const cv::Mat& b, const Window& window, cv::Range rows) {
-  const cv::Mat mean_a = LocalMean(a, window), mean_b = LocalMean(b, window);
-  const cv::Mat square_a = LocalMean(a.mul(a), window), square_b = LocalMean(b.mul(b), window),
-                product = LocalMean(a.mul(b), window);
+  thread_local Scratch scratch;
+  auto& [sum, difference, square, mean_sum, mean_difference, square_sum, square_difference] = scratch;
+  cv::add(a, b, sum);
+  cv::subtract(a, b, difference);
+  LocalMean(sum, window, mean_sum);
+  LocalMean(difference, window, mean_difference);
+  cv::multiply(sum, sum, square);
+  LocalMean(square, window, square_sum);
+  cv::multiply(difference, difference, square);
+  LocalMean(square, window, square_difference);
   cv::Mat similarity(rows.size(), a.cols * a.channels(), CV_64F);
-  for (int y = rows.start; y < rows.end; ++y)
+  for (int y = rows.start; y < rows.end; ++y) {
+    const auto *ms = mean_sum.ptr<double>(y), *md = mean_difference.ptr<double>(y);
+    const auto *ss = square_sum.ptr<double>(y), *sd = square_difference.ptr<double>(y);
+    auto* out = similarity.ptr<double>(y - rows.start);
     for (int i = 0; i < similarity.cols; ++i) {
-      const double ma = mean_a.ptr<double>(y)[i], mb = mean_b.ptr<double>(y)[i];
-      const double variances = square_a.ptr<double>(y)[i] - ma * ma + (square_b.ptr<double>(y)[i] - mb * mb);
-      const double covariance = product.ptr<double>(y)[i] - ma * mb;
-      similarity.at<double>(y - rows.start, i) =
-          (2 * ma * mb + kC1) * (2 * window.variance_factor * covariance + kC2) /
-          ((ma * ma + mb * mb + kC1) * (window.variance_factor * variances + kC2));
+      const double of_sum = ms[i] * ms[i], of_difference = md[i] * md[i];
+      const double variance_sum = window.variance_factor * (ss[i] - of_sum),
+                   variance_difference = window.variance_factor * (sd[i] - of_difference);
+      out[i] = ((of_sum - of_difference) / 2 + kC1) * ((variance_sum - variance_difference) / 2 + kC2) /
+               (((of_sum + of_difference) / 2 + kC1) * ((variance_sum + variance_difference) / 2 + kC2));
     }
+  }
   return similarity;
 }
 
