@@ -162,32 +162,5 @@ TEST(Aof, TheClearestNumberOfNeighboursAndOneThreshold) {
   EXPECT_NEAR(choice.Settings().threshold_px, 3 / 1.5, 0.01);  // the middle between 0 and 6, a bin is 6/1024
 }
 
-TEST(Flow, OfAMovedFrameIsItsShift) {
-  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC3, CV_32FC1})
-    for (const cv::Size size : {cv::Size(160, 120), cv::Size(1201, 203)}) {
-      cv::Mat scene = Noise(size + cv::Size(8, 8), type, 4);
-      for (int i = 0; i < 4; ++i) cv::blur(scene, scene, {7, 7});
-      cv::normalize(scene.clone(), scene, 0, WhiteOf(scene.depth()), cv::NORM_MINMAX);
-      const cv::Mat flow = DisFlow()->Flow(scene({{4, 4}, size}).clone(), scene({{1, 2}, size}).clone());
-      ASSERT_EQ(flow.size(), size);
-      // What is at p of the first is at p + (3, 2) of the second. Means over the inside, where nothing
-      // leaves.
-      // Patches are compared to a tenth of a px: of two px at half size, and its patches are cut by more
-      // edges.
-      const double tolerance = size.width > 1000 ? 0.3 : 0.1;
-      const cv::Scalar mean = cv::mean(flow(cv::Rect(20, 20, size.width - 40, size.height - 40)));
-      EXPECT_NEAR(mean[0], 3, tolerance) << type << size;
-      EXPECT_NEAR(mean[1], 2, tolerance) << type << size;
-    }
-}
-
-TEST(Flow, TinyFramesAndBadOnes) {
-  const cv::Mat tiny = Noise({5, 3}, CV_8UC3, 1);
-  EXPECT_EQ(DisFlow()->Flow(tiny, tiny).size(), tiny.size());
-  EXPECT_THROW(DisFlow()->Flow(tiny, cv::Mat()), std::invalid_argument);
-  EXPECT_THROW(DisFlow()->Flow(tiny, Noise({5, 4}, CV_8UC3, 1)), std::invalid_argument);
-  EXPECT_THROW(DisFlow()->Flow(tiny, Noise({5, 3}, CV_8UC1, 1)), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace shimmer::restore

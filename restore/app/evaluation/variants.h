@@ -27,10 +27,10 @@ struct Variant {
 };
 
 struct VariantOptions {
-  RestoreSettings settings;                   // of the full pipeline
+  RestoreSettings settings = {};              // of the full pipeline
   bool ablations = false, baselines = false;  // those that there always are
-  std::vector<std::string> changed;           // "NAME:stack=off,segment=aof"
-  std::vector<std::string> methods;           // "NAME=FOLDER"
+  std::vector<std::string> changed = {};      // "NAME:stack=off,segment=aof"
+  std::vector<std::string> methods = {};      // "NAME=FOLDER"
 };
 
 // The input, then the full pipeline, ablations, baselines, methods, in this order. Throws
