@@ -59,8 +59,8 @@ std::vector<const ClipResult*> WorstFirst(const std::vector<ClipResult>& clips) 
 std::string ClipsHtml(const Evaluation& evaluation, const std::vector<ShownClip>& shown) {
   const Column psnr = ColumnOf(Measure::kPsnr);
   Table table("Clips",
-              {TextColumn("clip", "Clip"), CountColumn("size", "size", "px"), CountColumn("frames", "frames"),
-               CountColumn("tilt", "true tilt", "px"), TextColumn("shake", "Shake"),
+              {TextColumn("clip", "clip"), CountColumn("size", "size", "px"), CountColumn("frames", "frames"),
+               CountColumn("tilt", "true tilt", "px"), TextColumn("shake", "shake"),
                CountColumn("objects", "objects"), Renamed(psnr, "psnr_db_input", "PSNR, input"),
                Renamed(psnr, psnr.key, "PSNR, restored"), GainColumn(Measure::kPsnr, "gain"),
                GainColumn(Measure::kPsnrBackground, "gain, background"),
@@ -104,7 +104,7 @@ std::string ClipsHtml(const Evaluation& evaluation, const std::vector<ShownClip>
 
 std::string RealHtml(const Evaluation& evaluation, const std::vector<ShownClip>& shown) {
   constexpr Measure kAlone[] = {Measure::kLineDeviation, Measure::kStability};
-  std::vector<Column> columns = {TextColumn("clip", "Video"), TextColumn("variant", "Variant"),
+  std::vector<Column> columns = {TextColumn("clip", "video"), TextColumn("variant", "variant"),
                                  CountColumn("size", "size", "px"), CountColumn("frames", "frames")};
   for (const Measure measure : kAlone) {
     columns.push_back(ColumnOf(measure));
@@ -140,7 +140,7 @@ std::string RealHtml(const Evaluation& evaluation, const std::vector<ShownClip>&
 
 std::string FailuresHtml(const Evaluation& evaluation) {
   Table table("Failures",
-              {TextColumn("clip", "Clip"), TextColumn("variant", "Variant"), TextColumn("error", "Error")});
+              {TextColumn("clip", "clip"), TextColumn("variant", "variant"), TextColumn("error", "error")});
   for (const auto* clips : {&evaluation.clips, &evaluation.real})
     for (const ClipResult& clip : *clips)
       for (const VariantError& error : clip.errors)

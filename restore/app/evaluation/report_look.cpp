@@ -10,13 +10,13 @@ const char* const kReportLook = R"css(
 h3 { margin: 24px 0 8px; font-size: 15px; }
 small { color: var(--quiet); font-size: 12px; font-weight: 400; }
 .tile { min-width: 0; overflow-wrap: anywhere; }
-.error { color: var(--bad); font-weight: 400; overflow-wrap: anywhere; }
+.error { min-width: 26ch; color: var(--bad); }
 
 .table { overflow-x: auto; margin-bottom: 16px; }
 .table table { width: auto; min-width: 100%; font-size: 14px; }
 .table th, .table td { padding: 5px 8px; vertical-align: baseline; }
 .table thead th { padding: 0; vertical-align: bottom; }
-.table th[scope=row], .table td:not(.number) { min-width: 9ch; max-width: 36ch; overflow-wrap: anywhere;
+.table th[scope=row], .table td:not(.number) { min-width: 9ch; max-width: 36ch; overflow-wrap: break-word;
   unicode-bidi: isolate; }
 .table th:first-child { position: sticky; left: 0; padding-left: 0; background: var(--page); z-index: 1; }
 .table th[scope=row] { font-weight: 400; }
@@ -29,8 +29,11 @@ small { color: var(--quiet); font-size: 12px; font-weight: 400; }
 .scripted .table thead button { cursor: pointer; }
 .scripted .table thead button:hover { background: var(--rail); }
 .scripted [aria-sort=ascending] button, .scripted [aria-sort=descending] button { color: var(--bar); }
-.scripted [aria-sort=ascending] button { box-shadow: inset 0 2px var(--bar); }
-.scripted [aria-sort=descending] button { box-shadow: inset 0 -2px var(--bar); }
+.scripted .table thead button::before { content: "\25B2"; display: block; font-size: 9px; line-height: 1;
+  visibility: hidden; }
+.scripted [aria-sort=ascending] button::before, .scripted [aria-sort=descending] button::before {
+  visibility: visible !important; }
+.scripted [aria-sort=descending] button::before { content: "\25BC" !important; }
 :focus-visible { outline: 2px solid var(--bar); outline-offset: -2px; }
 
 .chart h3 { font: 600 14px/1.4 inherit; font-family: inherit; }
@@ -50,8 +53,8 @@ small { color: var(--quiet); font-size: 12px; font-weight: 400; }
 .mean { stroke-dasharray: none; }
 .legend { display: flex; flex-wrap: wrap; gap: 4px 18px; margin: 10px 0 0; padding: 0; list-style: none;
   font-size: 13px; }
-.legend li { min-width: 0; overflow-wrap: anywhere; }
-.legend svg { margin-right: 7px; }
+.legend li { display: flex; align-items: center; gap: 7px; min-width: 0; overflow-wrap: anywhere; }
+.legend svg { flex: none; }
 
 .clip { margin: 0 0 36px; break-inside: avoid; }
 .clip h3 { overflow-wrap: anywhere; }
@@ -93,6 +96,7 @@ footer p { max-width: 100ch; margin-bottom: 6px; }
 @media (max-width: 640px) {
   .quality { font-size: 13px; }
   .table th[scope=row] { max-width: 38vw; }
+  .error { min-width: 0; }
   .over-time { height: 110px; } }
 @media print { .table { overflow: visible; } .table table { font-size: 8pt; } }
 )css";

@@ -22,7 +22,7 @@ std::string ShownWithUnit(const Value& value, const MeasureText& text, Sign sign
 }
 
 std::string MarginText(const std::optional<MeanOfClips>& mean, int decimals) {
-  return mean && mean->margin ? "± " + Shown(*mean->margin, decimals) : "";
+  return mean && mean->margin ? "±\u00A0" + Shown(*mean->margin, decimals) : "";
 }
 
 std::string Exact(double value) {

@@ -20,7 +20,7 @@ enum class Sign {
 std::string Shown(const Value& value, int decimals, Sign sign = Sign::kOfNegative);
 std::string ShownWithUnit(const Value& value, const MeasureText& text, Sign sign = Sign::kOfNegative);
 
-// "± 0.12"; empty without a margin.
+// "± 0.12", on one line; empty without a margin.
 std::string MarginText(const std::optional<MeanOfClips>& mean, int decimals);
 
 // As scripts read it: "1.23456789", "-Infinity". Of what Shown shows as a number.

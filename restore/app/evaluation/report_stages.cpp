@@ -35,7 +35,7 @@ std::optional<MeanOfClips> MeanStep(const ClipGroup& all, const Step& before, co
 
 Table ScoresTable(const ClipGroup& all) {
   Column before{"psnr_db_step", "over the stage before", "dB"};
-  std::vector<Column> columns = {TextColumn("stage", "Stage"),
+  std::vector<Column> columns = {TextColumn("stage", "stage"),
                                  GainColumn(Measure::kPsnr, "gain over the input"), before};
   for (const Measure measure : kScores) columns.push_back(ColumnOf(measure));
   Table table("Stages", columns);
@@ -82,7 +82,7 @@ const ClipResult* WorstBy(const ClipGroup& all, Measure measure) {
 
 Table FindingsTable(const Evaluation& evaluation, const ClipGroup& all) {
   Table table("What the stages found",
-              {TextColumn("stage", "Stage"), TextColumn("measure", "Measure"), CountColumn("mean", "mean"),
+              {TextColumn("stage", "stage"), TextColumn("measure", "measure"), CountColumn("mean", "mean"),
                CountColumn("margin", "± 95 %"), CountColumn("worst", "worst"), TextColumn("clip", "of clip"),
                CountColumn("clips", "clips")});
   for (const auto& [stage, measure] : kFindings) {

@@ -17,7 +17,7 @@ std::string GroupName(const ClipGroup& group) {
 }  // namespace
 
 std::string VariantsHtml(const Evaluation& evaluation) {
-  std::vector<Column> columns = {TextColumn("variant", "Variant"), CountColumn("clips", "clips"),
+  std::vector<Column> columns = {TextColumn("variant", "variant"), CountColumn("clips", "clips"),
                                  ColumnOf(Measure::kPsnr), ColumnOf(Measure::kSsim),
                                  GainColumn(Measure::kPsnr, "gain over the input")};
   for (const Measure measure : kOtherMeasures) columns.push_back(ColumnOf(measure));
@@ -53,7 +53,7 @@ std::string GroupsHtml(const Evaluation& evaluation) {
   input.label = "PSNR, input";
   full.label = "PSNR, restored";
   Table table("Groups of clips",
-              {TextColumn("group", "Clips"), CountColumn("clips", "clips"), input, full,
+              {TextColumn("group", "group"), CountColumn("clips", "clips"), input, full,
                GainColumn(Measure::kPsnr, "gain"), GainColumn(Measure::kPsnrBackground, "gain, background"),
                GainColumn(Measure::kPsnrForeground, "gain, foreground"), ColumnOf(Measure::kSsim),
                ColumnOf(Measure::kIou), ColumnOf(Measure::kShiftMean)});
