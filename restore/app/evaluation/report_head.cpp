@@ -45,8 +45,9 @@ std::string HeadlineTiles(const Evaluation& evaluation) {
            MeanTile("shift error, mean", MeanFound(all, Measure::kShiftMean), Measure::kShiftMean);
   if (const std::optional<double> correlation = TiltCorrelation(evaluation.clips))
     tiles += cli::Tile("rank correlation of the tilt found with the true one", Shown(*correlation, 2));
-  return tiles +
-         MeanTile("all stages", MeanIn(all, kFullName, kResultStage, Measure::kTime, false), Measure::kTime);
+  if (const auto time = MeanIn(all, kFullName, kResultStage, Measure::kTime, false))
+    tiles += cli::Tile("a frame, in all stages", Shown(time->mean, TextOf(Measure::kTime).decimals) + " ms");
+  return tiles;
 }
 
 }  // namespace

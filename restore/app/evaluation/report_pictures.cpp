@@ -61,6 +61,7 @@ std::string SliderHtml(const ShownClip& shown) {
                view.label + "</button>";
     ++views;
   }
+  if (views == 1) buttons.clear();  // nothing to choose
   return "<div class=\"views\" role=\"group\" aria-label=\"On the right of the line\">" + buttons +
          "</div>\n<div class=\"slider\"" + SliderStyle(shown.clip->facts.size) + ">\n" +
          ImageHtml(shown.folder / kInputPicture, "The turbulent frame of " + name, "class=\"before\"") +

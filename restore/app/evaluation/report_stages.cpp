@@ -97,16 +97,15 @@ Table FindingsTable(const Evaluation& evaluation, const ClipGroup& all) {
                NumberCell(worst ? Found(*worst, measure) : Value(), text.decimals),
                {.text = worst ? worst->facts.name : kAbsent},
                CountCell(mean->clips)});
-  }
-  if (const std::optional<double> correlation = TiltCorrelation(evaluation.clips)) {
-    Value absent;
-    table.Add({{.text = "look"},
-               {.text = "tilt found and true, rank correlation"},
-               NumberCell(*correlation, 3),
-               NumberCell(absent, 3),
-               NumberCell(absent, 3),
-               {.text = kAbsent},
-               {.text = kAbsent}});
+    const Value correlation = measure == Measure::kFoundTilt ? TiltCorrelation(evaluation.clips) : Value();
+    if (correlation)
+      table.Add({{.text = stage},
+                 {.text = "its rank correlation with the true tilt"},
+                 NumberCell(correlation, 3),
+                 {.text = kAbsent},
+                 {.text = kAbsent},
+                 {.text = kAbsent},
+                 {.text = kAbsent}});
   }
   return table;
 }
