@@ -78,7 +78,7 @@ struct Range {
   explicit Range(double first) : low(first), high(first) {}
   void Take(double value) { low = std::min(low, value), high = std::max(high, value); }
   void Widen() {
-    const double room = high > low ? 0.05 * (high - low) : 1;
+    const double room = std::max(0.05 * (high - low), 0.05);  // less than that is rounding
     low -= room, high += room;
   }
   double PartOf(double value) const { return (value - low) / (high - low); }
@@ -192,10 +192,12 @@ std::string QualityChartHtml(const Evaluation& evaluation) {
   for (const Point& point : points) svg += DotSvg(point, plane, "clip", 3);
   // The first, which is the pipeline as it was asked for, on top.
   for (size_t i = curves.size(); i-- > 0;) svg += CurveSvg(curves[i], plane, KindOf(i));
-  return cli::Chart(title,
-                    {"Dots are clips, restored by the full pipeline; lines are variants' means over the "
-                     "weak, the medium and the strong clips. Above 0 is better than the input."},
-                    svg + "</svg>\n" + LegendHtml(curves));
+  return cli::Chart(
+      title,
+      {curves.size() == kMostLines ? "Of the first " + cli::Counted(kMostLines, "variant") + "." : "",
+       "Dots are clips, restored by the full pipeline; lines are variants' means over the "
+       "weak, the medium and the strong clips. Above 0 is better than the input."},
+      svg + "</svg>\n" + LegendHtml(curves));
 }
 
 }  // namespace shimmer::restore::app

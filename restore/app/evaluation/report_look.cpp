@@ -81,7 +81,7 @@ small { color: var(--quiet); font-size: 12px; font-weight: 400; }
 .scripted .slider input { display: block; position: absolute; inset: 0; width: 100%; height: 100%; margin: 0;
   opacity: 0; pointer-events: none; }
 .slider:has(input:focus-visible) { outline: 3px solid var(--bar); outline-offset: 2px; }
-.sides { display: flex; justify-content: space-between; max-width: 720px; margin-top: 4px; color: var(--quiet);
+.sides { display: flex; justify-content: space-between; margin-top: 4px; color: var(--quiet);
   font-size: 13px; }
 html:not(.scripted) .sides span:first-child { display: none; }
 .rows { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 250px), 1fr)); gap: 8px 16px;

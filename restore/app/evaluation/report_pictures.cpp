@@ -39,7 +39,7 @@ std::string ImageHtml(const std::filesystem::path& file, const std::string& alt,
 }
 
 // No wider than the picture is of use, and no higher than a window.
-std::string SliderStyle(const cv::Size& size) {
+std::string WidthOf(const cv::Size& size) {
   if (size.empty()) return "";
   const double width = std::min(kMostWidth_px, kMostHeight_px * size.width / size.height);
   return " style=\"max-width:" + std::to_string(static_cast<int>(width)) + "px\"";
@@ -63,7 +63,7 @@ std::string SliderHtml(const ShownClip& shown) {
   }
   if (views == 1) buttons.clear();  // nothing to choose
   return "<div class=\"views\" role=\"group\" aria-label=\"On the right of the line\">" + buttons +
-         "</div>\n<div class=\"slider\"" + SliderStyle(shown.clip->facts.size) + ">\n" +
+         "</div>\n<div class=\"slider\">\n" +
          ImageHtml(shown.folder / kInputPicture, "The turbulent frame of " + name, "class=\"before\"") +
          "\n" + images +
          "<span class=\"divider\" aria-hidden=\"true\"></span>\n"
@@ -140,8 +140,9 @@ std::string ShownClipsHtml(const std::vector<ShownClip>& shown) {
             (gain ? " <small>" + EscapeHtml(ShownWithUnit(gain, TextOf(Measure::kPsnr), Sign::kAlways)) +
                         "</small>"
                   : "") +
-            "</h3>\n<div class=\"seen\">\n<div class=\"compared\">\n" + SliderHtml(one) + "</div>\n" +
-            FiguresHtml(*one.clip) + "</div>\n" + RowsHtml(one) + "</article>\n";
+            "</h3>\n<div class=\"seen\">\n<div class=\"compared\"" + WidthOf(one.clip->facts.size) + ">\n" +
+            SliderHtml(one) + "</div>\n" + FiguresHtml(*one.clip) + "</div>\n" + RowsHtml(one) +
+            "</article>\n";
   }
   return html;
 }

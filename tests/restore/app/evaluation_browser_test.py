@@ -58,6 +58,16 @@ function act() {
 }
 </script>"""
 
+# Where scripts are off (this one is added later): whether the restored frame is all to be seen, and what is there to click.
+LOOK = """<script>
+function act() {
+  const shown = document.querySelector(".after:not([hidden])");
+  return {whole: shown.dataset.view === "result" && getComputedStyle(shown).clipPath === "none" && shown.offsetWidth > 100,
+          works: [...document.querySelectorAll(".slider input, .views button, .divider")]
+            .filter(node => node.offsetWidth > 0).map(node => node.outerHTML)};
+}
+</script>"""
+
 
 def make_report(program, folder):
     """A page to look at: of 40 clips, with pictures."""
@@ -114,6 +124,19 @@ def click_faults(report, chromium, folder):
     return faults + browser.faults
 
 
+def scriptless_faults(report, chromium, folder):
+    """What is wrong with the page where scripts are off: the result has to be seen, and nothing that does not work."""
+    text = report.read_text(encoding="utf-8")
+    start, end = text.rindex("<script>"), text.rindex("</script>")
+    browser = page.Browser(chromium, folder)
+    plain = page.with_scripts(text[:start] + text[end + len("</script>"):], folder / "plain.html", LOOK)
+    seen = browser.measure(plain, 400)
+    faults = [*page.faults_of(seen, 400, dark=False), *browser.faults]
+    if seen["acted"] != {"whole": True, "works": []}:
+        faults.append(f"{seen['acted']}")
+    return [f"without script: {fault}" for fault in faults]
+
+
 def unseen_faults(report, chromium, folder):
     """What spoiled pages would have to be found guilty of, and are not."""
     text = report.read_text(encoding="utf-8")
@@ -137,7 +160,7 @@ def unseen_faults(report, chromium, folder):
 
 def look_at(report, chromium, folder, pictures):
     return page.look(report, chromium, folder, pictures, own_faults) + click_faults(report, chromium, folder) + \
-        unseen_faults(report, chromium, folder)
+        scriptless_faults(report, chromium, folder) + unseen_faults(report, chromium, folder)
 
 
 if __name__ == "__main__":
