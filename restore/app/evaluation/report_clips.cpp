@@ -104,26 +104,28 @@ std::string ClipsHtml(const Evaluation& evaluation, const std::vector<ShownClip>
 
 std::string RealHtml(const Evaluation& evaluation, const std::vector<ShownClip>& shown) {
   constexpr Measure kAlone[] = {Measure::kLineDeviation, Measure::kStability};
-  std::vector<Column> columns = {TextColumn("clip", "video"), TextColumn("variant", "variant"),
-                                 CountColumn("size", "size", "px"), CountColumn("frames", "frames")};
+  std::vector<Column> columns = {TextColumn("clip", "video"), TextColumn("variant", "variant")};
   for (const Measure measure : kAlone) {
     columns.push_back(ColumnOf(measure));
     columns.push_back(GainColumn(measure, "over the input"));
     columns[columns.size() - 2].best = columns.back().best = Better::kNeither;  // videos differ
   }
   columns.push_back(ColumnOf(Measure::kTime));
+  columns.push_back(CountColumn("size", "size", "px"));
+  columns.push_back(CountColumn("frames", "frames"));
   Table table("Real video", columns);
   for (const ClipResult& clip : evaluation.real) {
     Cell name = NameCell(clip, shown);
     const auto add = [&](const std::string& variant) {
-      std::vector<Cell> cells = {
-          name, {.text = variant}, SizeCell(clip.facts.size), CountCell(clip.facts.frames)};
+      std::vector<Cell> cells = {name, {.text = variant}};
       for (const Measure measure : kAlone) {
         cells.push_back(LevelCell(MeasureOf(clip, variant, measure), measure));
         cells.push_back(variant == kInputName ? Cell{.text = kAbsent}
                                               : GainCell(GainOf(clip, variant, measure), measure));
       }
       cells.push_back(LevelCell(MeasureOf(clip, variant, Measure::kTime), Measure::kTime));
+      cells.push_back(SizeCell(clip.facts.size));
+      cells.push_back(CountCell(clip.facts.frames));
       table.Add(cells, false);
       name.error.clear();  // once a video
     };
@@ -146,7 +148,7 @@ std::string FailuresHtml(const Evaluation& evaluation) {
       for (const VariantError& error : clip.errors)
         table.Add({{.text = clip.facts.name}, {.text = error.variant}, {.text = "", .error = error.error}});
   if (table.empty()) return "";
-  return cli::Section("failures", "Failures", "What these clips would have been is in none of the means.",
+  return cli::Section("failures", "Failures", "What failed on a clip is in no mean; the other variants are.",
                       table.Html());
 }
 
