@@ -6,6 +6,7 @@
 
 #include "cli/html.h"
 #include "cli/number_text.h"
+#include "cli/page.h"
 #include "cli/report_style.h"
 #include "sim/app/job.h"
 #include "sim/app/preview.h"
@@ -19,12 +20,6 @@ namespace {
 
 constexpr int kSheetRows = 6, kJpegQuality = 88;
 constexpr int64_t kMostErrors = 200;
-
-std::string Section(const std::string& id, const std::string& title, const std::string& note,
-                    const std::string& body) {
-  return "<section id=\"" + id + "\">\n<h2>" + title + "</h2>\n<p>" + cli::EscapeHtml(note) + "</p>\n" +
-         body + "</section>\n";
-}
 
 std::string Charts(const std::string& charts) { return "<div class=\"charts\">\n" + charts + "</div>\n"; }
 
@@ -41,14 +36,15 @@ std::string SheetHtml(const dataset::DatasetReader& reader, const std::vector<st
   const cv::Mat sheet = ContactSheet(reader, kSheetRows);
   const std::string size =
       "width=\"" + std::to_string(sheet.cols) + "\" height=\"" + std::to_string(sheet.rows) + "\"";
-  return Section("sheet", "Contact sheet",
-                 "The middle frame of clips that are spread evenly over the set. Tilt: hue is direction, "
-                 "saturation is length." +
-                     MarksNote(truth),
-                 "<div class=\"sheet\" tabindex=\"0\"><img alt=\"Clean frames, turbulent frames, tilt and "
-                 "sigma of some clips, side by side\" " +
-                     size + " src=\"data:image/jpeg;base64," +
-                     cli::Base64(dataset::EncodeJpeg(sheet, kJpegQuality)) + "\"></div>\n");
+  return cli::Section(
+      "sheet", "Contact sheet",
+      "The middle frame of clips that are spread evenly over the set. Tilt: hue is direction, "
+      "saturation is length." +
+          MarksNote(truth),
+      "<div class=\"sheet\" tabindex=\"0\"><img alt=\"Clean frames, turbulent frames, tilt and "
+      "sigma of some clips, side by side\" " +
+          size + " src=\"data:image/jpeg;base64," + cli::Base64(dataset::EncodeJpeg(sheet, kJpegQuality)) +
+          "\"></div>\n");
 }
 
 std::string MeasuredHtml(const ReportFacts& facts) {
@@ -59,21 +55,21 @@ std::string MeasuredHtml(const ReportFacts& facts) {
   if (!facts.moving_share.numbers.empty())
     motion += HistogramHtml({"moving_share", "", {"share of the frame that moving objects cover, mean"}},
                             facts.moving_share.numbers, cli::AxisKind::kLinear);
-  return Section("measured", motion.empty() ? "Tilt RMS and sigma" : "Tilt RMS, sigma and motion",
-                 "One value a clip, over all pixels of the frames that were written.",
-                 Charts(HistogramHtml({"tilt_rms_px", "px", {"RMS of the shift along an axis"}},
-                                      facts.tilt_rms_px.numbers, cli::AxisKind::kLinear) +
-                        HistogramHtml({"mean_sigma_px", "px", {"mean of the blur's sigma"}},
-                                      facts.mean_sigma_px.numbers, cli::AxisKind::kLinear) +
-                        motion));
+  return cli::Section("measured", motion.empty() ? "Tilt RMS and sigma" : "Tilt RMS, sigma and motion",
+                      "One value a clip, over all pixels of the frames that were written.",
+                      Charts(HistogramHtml({"tilt_rms_px", "px", {"RMS of the shift along an axis"}},
+                                           facts.tilt_rms_px.numbers, cli::AxisKind::kLinear) +
+                             HistogramHtml({"mean_sigma_px", "px", {"mean of the blur's sigma"}},
+                                           facts.mean_sigma_px.numbers, cli::AxisKind::kLinear) +
+                             motion));
 }
 
 std::string DrawnHtml(const ConfigFile& config, const ReportFacts& facts) {
   const std::string charts = DrawnChartsHtml(config, facts);
   if (charts.empty())
-    return Section("drawn", "Drawn parameters", "None: every clip has the same values.", "");
-  return Section("drawn", "Drawn parameters",
-                 "Each clip has drawn its own value; these are of the clips done.", Charts(charts));
+    return cli::Section("drawn", "Drawn parameters", "None: every clip has the same values.", "");
+  return cli::Section("drawn", "Drawn parameters",
+                      "Each clip has drawn its own value; these are of the clips done.", Charts(charts));
 }
 
 std::string SourcesHtml(const Json& sources, const ReportFacts& facts) {
@@ -87,10 +83,11 @@ std::string SourcesHtml(const Json& sources, const ReportFacts& facts) {
                                  : " The set is made from these and " +
                                        cli::Counted(counts.masks_and_objects, "file") +
                                        " of masks and objects.";
-  return Section("sources", "Sources",
-                 cli::Grouped(std::ssize(rows)) + " of " + cli::Counted(counts.backgrounds, "source file") +
-                     (rows.size() == 1 ? " is" : " are") + " seen in clips that are done." + others,
-                 BarsHtml({"source.path", "", {"clips that show it"}}, rows));
+  return cli::Section("sources", "Sources",
+                      cli::Grouped(std::ssize(rows)) + " of " +
+                          cli::Counted(counts.backgrounds, "source file") +
+                          (rows.size() == 1 ? " is" : " are") + " seen in clips that are done." + others,
+                      BarsHtml({"source.path", "", {"clips that show it"}}, rows));
 }
 
 std::string FailureRow(const std::string& error, const Failure& failure) {
@@ -103,7 +100,7 @@ std::string FailureRow(const std::string& error, const Failure& failure) {
 }
 
 std::string FailuresHtml(const ReportFacts& facts) {
-  if (facts.failures.empty()) return Section("failures", "Failures", "No clip has failed.", "");
+  if (facts.failures.empty()) return cli::Section("failures", "Failures", "No clip has failed.", "");
   std::vector<std::pair<std::string, Failure>> failures(facts.failures.begin(), facts.failures.end());
   std::ranges::stable_sort(failures, std::ranges::greater(), [](const auto& f) { return f.second.clips; });
   const int64_t shown = std::min(std::ssize(failures), kMostErrors);
@@ -120,7 +117,7 @@ std::string FailuresHtml(const ReportFacts& facts) {
     rows += "<tr data-clips=\"" + std::to_string(clips - shown_clips) + "\"><td>" +
             cli::EscapeHtml("and " + cli::Counted(std::ssize(failures) - shown, "other error")) +
             "</td><td class=\"count\">" + cli::Grouped(clips - shown_clips) + "</td><td></td></tr>\n";
-  return Section(
+  return cli::Section(
       "failures", "Failures",
       cli::Counted(clips, "clip") + " could not be made; their lines in the manifest have the error.",
       "<table class=\"failures\">\n<tr><th scope=\"col\">Error</th><th scope=\"col\" class=\"count\">"
@@ -134,11 +131,8 @@ std::string ReportHtml(const std::filesystem::path& folder) {
   const dataset::DatasetReader reader(folder);
   const ConfigFile config = ConfigOfDataset(folder, reader.description());
   const ReportFacts facts = FactsOf(reader);
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      cli::EscapeHtml(config.fixed().output.name) + ": report</title>\n<style>" + cli::kReportStyle +
-      "</style>\n</head>\n<body>\n" + SummaryHtml(reader, config, facts);
+  std::string html = cli::PageStart(config.fixed().output.name + ": report", cli::kReportStyle) +
+                     SummaryHtml(reader, config, facts);
   if (reader.clips().empty())
     html += "<p class=\"empty\">No clip is done: there is nothing to show yet.</p>\n";
   else

@@ -7,6 +7,7 @@
 
 #include "cli/html.h"
 #include "cli/number_text.h"
+#include "cli/page.h"
 #include "cli/svg.h"
 
 namespace shimmer::app {
@@ -26,14 +27,6 @@ constexpr double kBase = kHeight - kBottom, kWidestBar = 36;
 
 std::string WithUnit(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
-}
-
-std::string Figure(const ChartTexts& texts, const std::string& body) {
-  std::string html = "<figure class=\"chart\" data-key=\"" + EscapeHtml(texts.key) + "\">\n<figcaption><h3>" +
-                     EscapeHtml(texts.key) + "</h3>";
-  for (const std::string& note : texts.notes)
-    if (!note.empty()) html += "<p>" + EscapeHtml(note) + "</p>";
-  return html + "</figcaption>\n" + body + "</figure>\n";
 }
 
 double MedianOf(std::span<const double> sorted) {
@@ -109,7 +102,7 @@ std::string MedianSvg(double median, const Plane& plane) {
 }  // namespace
 
 std::string HistogramHtml(const ChartTexts& texts, std::span<const double> values, AxisKind kind) {
-  if (values.empty()) return Figure(texts, "<p class=\"none\">No clip has it.</p>\n");
+  if (values.empty()) return cli::Chart(texts.key, texts.notes, "<p class=\"none\">No clip has it.</p>\n");
   // A ratio of less than two is as good as linear, and has rounder bins.
   const double ratio = values.front() > 0 ? values.back() / values.front() : 0;
   if (kind == AxisKind::kLogarithmic && (ratio < 2 || std::isinf(ratio))) kind = AxisKind::kLinear;
@@ -131,32 +124,30 @@ std::string HistogramHtml(const ChartTexts& texts, std::span<const double> value
       EscapeHtml(texts.key + " of " + cli::Counted(std::ssize(values), "clip") + ": " + figures) + "\">\n" +
       AxesSvg(texts, ticks, even ? ticks[1] - ticks[0] : 0, most, plane);
   for (const Bin& bin : bins) svg += BinSvg(bin, plane, texts.unit);
-  return Figure(texts, svg + MedianSvg(median, plane) + "</svg>\n<p class=\"figures\">" +
-                           EscapeHtml(figures) + "</p>\n");
+  return cli::Chart(
+      texts.key, texts.notes,
+      svg + MedianSvg(median, plane) + "</svg>\n<p class=\"figures\">" + EscapeHtml(figures) + "</p>\n");
 }
 
 std::string BarsHtml(const ChartTexts& texts, std::span<const BarRow> rows) {
   int64_t all = 0, most = 1, shown = 0;
   for (const BarRow& row : rows) all += row.count, most = std::max(most, row.count);
-  if (all == 0) return Figure(texts, "<p class=\"none\">No clip has it.</p>\n");
+  if (all == 0) return cli::Chart(texts.key, texts.notes, "<p class=\"none\">No clip has it.</p>\n");
   std::string html = "<ol class=\"bars\">\n";
   for (const BarRow& row : rows.first(std::min(rows.size(), kMostBars))) {
     const double share = 100 * double(row.count) / double(all);
     shown += row.count;
-    html +=
-        "<li data-value=\"" + EscapeHtml(row.value) + "\" data-count=\"" + std::to_string(row.count) +
-        "\"><span class=\"value\">" + EscapeHtml(row.value) + "</span><span class=\"count\">" +
-        cli::Grouped(row.count) + " <small>" + Px(share) +
-        " %</small></span><svg class=\"row\" width=\"100%\" height=\"8\" aria-hidden=\"true\"><title>" +
-        EscapeHtml(row.value + ": " + cli::Counted(row.count, "clip")) +
-        "</title><rect class=\"rail\" width=\"100%\" height=\"8\" rx=\"2\"/><rect class=\"bar\" width=\"" +
-        Px(100 * double(row.count) / double(most)) + "%\" height=\"8\" rx=\"2\"/></svg></li>\n";
+    const std::string data =
+        "data-value=\"" + EscapeHtml(row.value) + "\" data-count=\"" + std::to_string(row.count) + "\"";
+    html += cli::Bar({row.value, cli::Grouped(row.count), Px(share) + " %",
+                      row.value + ": " + cli::Counted(row.count, "clip")},
+                     data, 100 * double(row.count) / double(most));
   }
   html += "</ol>\n";
   if (rows.size() > kMostBars)
     html += "<p class=\"figures\">and " + cli::Grouped(std::ssize(rows) - int64_t{kMostBars}) + " more, of " +
             cli::Counted(all - shown, "clip") + "</p>\n";
-  return Figure(texts, html);
+  return cli::Chart(texts.key, texts.notes, html);
 }
 
 }  // namespace shimmer::app

@@ -5,6 +5,7 @@
 
 #include "cli/html.h"
 #include "cli/number_text.h"
+#include "cli/page.h"
 #include "sim/app/clean_frames.h"
 #include "sim/app/job.h"
 
@@ -16,11 +17,6 @@ constexpr int64_t kMostSizes = 4;
 
 std::string Joined(std::string text, const std::string& word) {
   return text.empty() ? word : std::move(text) + ", " + word;
-}
-
-std::string Tile(const std::string& name, const std::string& value, bool bad = false) {
-  return std::string("<div class=\"tile") + (bad ? " bad" : "") + "\"><b>" + cli::EscapeHtml(value) +
-         "</b><span>" + cli::EscapeHtml(name) + "</span></div>\n";
 }
 
 std::string Row(const std::string& name, const std::string& value) {
@@ -86,11 +82,11 @@ std::string SummaryHtml(const dataset::DatasetReader& reader, const ConfigFile& 
                                      std::to_string(EncodingOf(config.output).bits) + "-bit " +
                                      output.at("format").get<std::string>()) +
                      "</p>\n</header>\n<div class=\"tiles\">\n" +
-                     Tile("of " + cli::Counted(config.clips, "clip") + " done", cli::Grouped(done)) +
-                     Tile("failed", cli::Grouped(failed), failed > 0) +
-                     Tile("missing", cli::Grouped(Missing(reader, config.clips))) +
-                     Tile("frames", cli::Grouped(done * frames));
-  if (facts.file_bytes > 0) html += Tile("on disk", cli::BytesText(facts.file_bytes));
+                     cli::Tile("of " + cli::Counted(config.clips, "clip") + " done", cli::Grouped(done)) +
+                     cli::Tile("failed", cli::Grouped(failed), failed > 0) +
+                     cli::Tile("missing", cli::Grouped(Missing(reader, config.clips))) +
+                     cli::Tile("frames", cli::Grouped(done * frames));
+  if (facts.file_bytes > 0) html += cli::Tile("on disk", cli::BytesText(facts.file_bytes));
   const Json& description = reader.description();
   return html + "</div>\n<dl class=\"summary\">\n" +
          Row("Frame size", SizesText(file.resolved().at("size"), facts)) +

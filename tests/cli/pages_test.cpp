@@ -6,6 +6,7 @@
 #include <random>
 
 #include "cli/html.h"
+#include "cli/page.h"
 #include "cli/ticks.h"
 
 namespace shimmer::cli {
@@ -62,6 +63,22 @@ TEST(HtmlTexts, Base64OfRfc4648) {
   EXPECT_EQ(of("foo"), "Zm9v");
   EXPECT_EQ(of("foobar"), "Zm9vYmFy");
   EXPECT_EQ(of("\xFB\xFF"), "+/8=");
+}
+
+TEST(PageParts, EscapeAllButWhatIsHtml) {
+  const std::string text = "<b>&", escaped = "&lt;b&gt;&amp;", html = "<i>html</i>";
+  EXPECT_EQ(Tile(text, text, true),
+            "<div class=\"tile bad\"><b>" + escaped + "</b><span>" + escaped + "</span></div>\n");
+  EXPECT_EQ(Section("id", text, text, html), "<section id=\"id\">\n<h2>" + escaped + "</h2>\n<p>" + escaped +
+                                                 "</p>\n" + html + "</section>\n");
+  EXPECT_EQ(Chart(text, {"", text}, html), "<figure class=\"chart\" data-key=\"" + escaped +
+                                               "\">\n<figcaption><h3>" + escaped + "</h3><p>" + escaped +
+                                               "</p></figcaption>\n" + html + "</figure>\n");
+  const std::string bar = Bar({text, "1", "2", text}, "data-a=\"1\"", 50), start = PageStart(text, "p {}");
+  EXPECT_THAT(bar, testing::StartsWith("<li data-a=\"1\"><span class=\"value\">" + escaped + "<"));
+  EXPECT_THAT(bar, testing::HasSubstr("width=\"50.0%\""));
+  EXPECT_THAT(start, testing::HasSubstr("<title>" + escaped + "</title>\n<style>p {}</style>"));
+  EXPECT_THAT(start, testing::EndsWith("<body>\n"));
 }
 
 }  // namespace

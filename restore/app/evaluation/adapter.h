@@ -20,13 +20,13 @@ struct AdapterPath {
 };
 
 struct Adapter {
-  std::string name, about;
-  AdapterPath turb;         // must be there
-  AdapterPath clean, mask;  // one of them must be
-  AdapterPath warp;         // .npy files, rows x columns x 2: dx, dy of the tilt in px
-  int64_t frames = 0;       // the first so many of a clip; 0: all
-  int margin_px = 0;        // along each side, that do not count
-  nlohmann::json json;      // as it was read
+  std::string name, about = {};
+  AdapterPath turb;                   // must be there
+  AdapterPath clean = {}, mask = {};  // one of them must be
+  AdapterPath warp = {};              // .npy files, rows x columns x 2: dx, dy of the tilt in px
+  int64_t frames = 0;                 // the first so many of a clip; 0: all
+  int margin_px = 0;                  // along each side, that do not count
+  nlohmann::json json = {};           // as it was read
 
   // Clips by name, from what there is in the folder: what stands for {clip} in turb. Without {clip} there is
   // one, of the adapter's name.

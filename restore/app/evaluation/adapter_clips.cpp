@@ -143,8 +143,9 @@ class RealVideos : public ClipSet {
     std::map<std::string, int> times;
     for (const fs::path& video : videos_) {
       OpenFrames(video, stop);  // is it one?
-      // (a folder may be given with a slash at its end)
-      const std::string stem = (video.has_filename() ? video : video.parent_path()).stem().string();
+      // (a folder may be given with a slash at its end, or as "..")
+      const fs::path whole = fs::absolute(video).lexically_normal();
+      const std::string stem = (whole.has_filename() ? whole : whole.parent_path()).stem().string();
       const int time = ++times[stem];
       names_.push_back(time == 1 ? stem : stem + "-" + std::to_string(time));
     }

@@ -13,6 +13,7 @@
 #include "cli/number_text.h"
 #include "cli/progress.h"
 #include "restore/app/evaluation/clip_run.h"
+#include "restore/app/evaluation/pictures.h"
 #include "restore/app/evaluation/report_folder.h"
 #include "restore/app/evaluation/result_text.h"
 #include "restore/app/threads.h"
@@ -49,6 +50,11 @@ Sets OpenSets(const EvaluateOptions& options, const std::atomic<bool>& stop) {
     sets.truth = options.adapter.empty() ? OpenDataset(options.set)
                                          : OpenWithAdapter(options.set, options.adapter, stop);
   if (!options.real.empty()) sets.real = OpenRealVideos(options.real, stop);
+  if (sets.truth && sets.real)
+    for (const std::string& name : sets.real->names())
+      if (std::ranges::count(sets.truth->names(), name) > 0)
+        throw std::invalid_argument("--real " + name +
+                                    ": a clip of the data set has this name, must have another");
   return sets;
 }
 
@@ -109,7 +115,7 @@ class Evaluating {
       unreadable = error.what();
     }
     std::optional<ClipRun> run;
-    if (clip) run.emplace(*clip, task.is_real, folder_.PicturesOf(task.is_real, task.name()), stop_);
+    if (clip) run.emplace(*clip, task.is_real, PicturesOf(folder_.path(), task.name()), stop_);
     for (const Variant* variant : task.variants) {
       std::string error = unreadable;
       if (run) try {

@@ -2,10 +2,17 @@
 // over time; written with the full pipeline's rows, each no more than kPictureWidth_px wide.
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 namespace shimmer::restore::app {
 
 inline constexpr const char* kPicturesFolder = "pictures";
 inline constexpr int kPictureWidth_px = 960;
+
+// REPORT/pictures/CLIP: a clip's name as one folder, also of a real video, whose name is a path
+// ("videos/door.mp4": "videos_door.mp4").
+std::filesystem::path PicturesOf(const std::filesystem::path& report, const std::string& clip);
 
 // Of a real video there is no truth.
 inline constexpr const char* kInputPicture = "input.jpg";    // as turbulent as it was

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "restore/app/evaluation/pictures.h"
 #include "restore/app/evaluation/report_page.h"
 #include "restore/app/evaluation/result_text.h"
 #include "sim/dataset/files.h"
@@ -97,10 +96,6 @@ ReportFolder::ReportFolder(fs::path folder, const json& set, const std::string& 
   }
   dataset::MakeFolders(folder_);
   WriteText(folder_ / kDescription, description_.dump(2) + "\n");
-}
-
-fs::path ReportFolder::PicturesOf(bool is_real, const std::string& clip) const {
-  return folder_ / kPicturesFolder / (is_real ? fs::path(kRealFolder) / clip : fs::path(clip));
 }
 
 fs::path ReportFolder::FileOf(bool is_real, const std::string& clip, const std::string& variant) const {

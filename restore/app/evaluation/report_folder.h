@@ -29,7 +29,6 @@ class ReportFolder {
                const std::map<std::string, std::string>& real);
 
   const std::filesystem::path& path() const { return folder_; }
-  std::filesystem::path PicturesOf(bool is_real, const std::string& clip) const;
 
   // Whether its rows are there. What failed before is to be tried again.
   bool IsDone(bool is_real, const std::string& clip, const std::string& variant) const;
