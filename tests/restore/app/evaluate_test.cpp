@@ -119,7 +119,8 @@ TEST_F(Evaluate, TheResultIsWhatRestoreMakes) {
   ExpectDone(Unshimmer(folder_, {"restore", Set() + "/clips/000000", "--out", "results/000000", "--quiet"}));
   ExpectDone(Run({"--method", "same=results", "--clips", "2"}));
   const Json results = Results();
-  for (const Json& clip : results.at("clips")) {
+  for (int k = 0; k < 2; ++k) {
+    const Json& clip = results.at("clips")[k];
     for (const char* measure : {"psnr_db", "ssim", "psnr_background_db", "line_deviation_deg"})
       EXPECT_EQ(RowOf(clip, "same").at(measure), RowOf(clip, "full").at(measure)) << measure;
   }
