@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "restore/levels.h"
+#include "restore/luck.h"
 #include "restore/weighted_mean.h"
 
 namespace shimmer::restore {
@@ -22,7 +24,8 @@ constexpr double kLeastRegistered_px = 0.25;
 constexpr int kFilledShare = 4;    // a filled px counts that many times less
 constexpr float kEnough = 0.25f;   // share of the weights that needs no background before
 constexpr float kNothing = 0.01f;  // share of the weights that is as good as nothing
-constexpr int kPiece_px = 128;     // of a row; its sums stay in the first cache
+constexpr int kNearMoving_px = 12;
+constexpr int kPiece_px = 128;  // of a row; its sums stay in the first cache
 
 int PiecesOf(int cols) { return (cols + kPiece_px - 1) / kPiece_px; }
 
@@ -38,10 +41,24 @@ cv::Mat WeightOf(const cv::Mat& own, const cv::Mat& moving, cv::Size size) {
   return weight;
 }
 
+// The luck of a frame, but for what is near something that moves, whose edges are not the scene's: it is as
+// unlucky as can be, and counts where there is nothing else.
+cv::Mat LuckBeside(const WeighedFrame& frame) {
+  cv::Mat luck = LuckOf(frame.frame);
+  if (frame.weight.empty()) return luck;
+  const cv::Mat square =
+      cv::getStructuringElement(cv::MORPH_RECT, {2 * kNearMoving_px + 1, 2 * kNearMoving_px + 1});
+  cv::Mat near_moving;
+  cv::erode(frame.weight, near_moving, square);
+  luck.setTo(0, near_moving < 255);
+  return luck;
+}
+
 // One frame of the window at one piece of a row.
 struct Part {
   const uint8_t* row;
   const uint8_t* weight;  // nullptr: all 255
+  const uint8_t* luck;    // nullptr: all are as lucky
   float gaussian;
 };
 
@@ -50,56 +67,98 @@ struct Before {
   const uint8_t *row, *seen;
 };
 
-// The mean of a piece of px, and where it is seen.
+template <class Sample>
+const Sample* SamplesOf(const Part& part) {
+  return reinterpret_cast<const Sample*>(part.row);
+}
+
+// What the parts of a piece come to: sums of samples times weights, these weights, and what the weights were
+// if all were as lucky.
+template <int kChannels>
+struct Sums {
+  std::array<float, kPiece_px * kChannels> sum{};
+  std::array<float, kPiece_px> weights{}, shown{};
+};
+
 template <class Sample, int kChannels>
-void MeanOf(const std::vector<Part>& parts, const Before& before, int px, uint8_t* to_bytes, uint8_t* seen) {
-  std::array<float, kPiece_px * kChannels> sum{}, as_they_are{};
-  std::array<float, kPiece_px> weights{};
-  const int count = px * kChannels;
-  float full = 0, all = 0;  // weights of all px of parts that have no mask; and of all parts
-  bool masked = false;
-  const auto samples = [](const Part& part) { return reinterpret_cast<const Sample*>(part.row); };
+void AddPlain(const std::vector<Part>& parts, int px, Sums<kChannels>& sums) {
+  float full = 0;                       // weights of all px of parts that have no mask
   std::array<const Sample*, 4> rows{};  // that wait for others, to be added at once
   std::array<float, 4> shares{};
   size_t waiting = 0;
   for (const Part& part : parts) {
-    all += part.gaussian;
     if (part.weight != nullptr) {
-      AddWeighed<kChannels>(samples(part), part.weight, part.gaussian, px, sum.data(), weights.data());
-      masked = true;
+      AddWeighed<kChannels>(SamplesOf<Sample>(part), part.weight, part.gaussian, px, sums.sum.data(),
+                            sums.weights.data());
       continue;
     }
     full += part.gaussian;
-    rows[waiting] = samples(part), shares[waiting] = part.gaussian;
+    rows[waiting] = SamplesOf<Sample>(part), shares[waiting] = part.gaussian;
     if (++waiting < rows.size()) continue;
-    AddSamples(rows, shares, count, sum.data());
+    AddSamples(rows, shares, px * kChannels, sums.sum.data());
     waiting = 0;
   }
-  for (size_t k = 0; k < waiting; ++k) AddSamples(rows[k], shares[k], count, sum.data());
+  for (size_t k = 0; k < waiting; ++k) AddSamples(rows[k], shares[k], px * kChannels, sums.sum.data());
+  for (float& weight : sums.weights) weight += full;
+  sums.shown = sums.weights;
+}
+
+template <class Sample, int kChannels>
+void AddLucky(const std::vector<Part>& parts, int px, Sums<kChannels>& sums) {
+  std::array<uint8_t, kPiece_px> luckiest{};  // of those that show the px
+  for (const Part& part : parts)
+    for (int x = 0; x < px; ++x)
+      if (part.weight == nullptr || part.weight[x] != 0)
+        luckiest[static_cast<size_t>(x)] = std::max(luckiest[static_cast<size_t>(x)], part.luck[x]);
+  for (const Part& part : parts) {
+    const auto* samples = SamplesOf<Sample>(part);
+    for (int x = 0; x < px; ++x) {
+      const auto at = static_cast<size_t>(x);
+      const float shown =
+          part.weight == nullptr ? part.gaussian : part.gaussian / 255 * static_cast<float>(part.weight[x]);
+      const uint32_t less = luckiest[at] - std::min(part.luck[x], luckiest[at]);
+      const float weight = shown * LuckWeight(less);
+      sums.shown[at] += shown;
+      sums.weights[at] += weight;
+      for (int c = 0; c < kChannels; ++c)
+        sums.sum[at * kChannels + static_cast<size_t>(c)] +=
+            weight * static_cast<float>(samples[x * kChannels + c]);
+    }
+  }
+}
+
+// The mean of a piece of px, and where it is seen.
+template <class Sample, int kChannels>
+void MeanOf(const std::vector<Part>& parts, const Before& before, int px, uint8_t* to_bytes, uint8_t* seen) {
+  Sums<kChannels> sums;
+  if (parts[0].luck != nullptr)
+    AddLucky<Sample, kChannels>(parts, px, sums);
+  else
+    AddPlain<Sample, kChannels>(parts, px, sums);
+  float all = 0;
+  for (const Part& part : parts) all += part.gaussian;
 
   auto* to = reinterpret_cast<Sample*>(to_bytes);
-  std::fill(seen, seen + px, uint8_t{255});
-  if (!masked) {
-    const float scale = 1 / full;
-    for (int i = 0; i < count; ++i) to[i] = cv::saturate_cast<Sample>(sum[static_cast<size_t>(i)] * scale);
-    return;
-  }
+  const auto* last = reinterpret_cast<const Sample*>(before.row);
+  std::array<float, kPiece_px * kChannels> as_they_are{};
   bool mixed = false;
+  std::fill(seen, seen + px, uint8_t{255});
   for (int x = 0; x < px; ++x) {
-    const float own = full + weights[static_cast<size_t>(x)];
+    const auto at = static_cast<size_t>(x);
     const bool known = before.row != nullptr && before.seen[x] != 0;
-    const float missing = std::max(0.0f, (known ? kEnough : kNothing) * all - own);
+    const float shown = sums.shown[at], missing = std::max(0.0f, (known ? kEnough : kNothing) * all - shown);
     if (!known && missing > 0 && !mixed) {
       for (const Part& part : parts)
-        AddSamples(samples(part), part.gaussian / all, count, as_they_are.data());
+        AddSamples(SamplesOf<Sample>(part), part.gaussian / all, px * kChannels, as_they_are.data());
       mixed = true;
     }
-    const auto* last = reinterpret_cast<const Sample*>(before.row);
+    // (the mean counts for as much as is shown of the px, however lucky that is)
+    const float scale = sums.weights[at] > 0 ? shown / sums.weights[at] : 0;
     for (int i = x * kChannels; i < (x + 1) * kChannels; ++i) {
       const auto k = static_cast<size_t>(i);
-      float value = sum[k];
+      float value = sums.sum[k] * scale;
       if (missing > 0) value += missing * (known ? static_cast<float>(last[i]) : as_they_are[k]);
-      to[i] = cv::saturate_cast<Sample>(value / (own + missing));
+      to[i] = cv::saturate_cast<Sample>(value / (shown + missing));
     }
     if (!known && missing > 0) seen[x] = 0;
   }
@@ -166,7 +225,8 @@ std::optional<BackgroundFrame> Background::Rest() {
 }
 
 void Background::Add(WeighedFrame frame) {
-  Waiting waiting{std::move(frame), {}};
+  Waiting waiting{std::move(frame), {}, {}};
+  if (params_.lucky) waiting.luck = LuckBeside(waiting.seen);
   if (const cv::Mat& weight = waiting.seen.weight; !weight.empty())
     for (int y = 0; y < weight.rows; ++y)
       for (int piece = 0; piece < PiecesOf(weight.cols); ++piece) {
@@ -198,6 +258,7 @@ BackgroundFrame Background::Mean() const {
           const bool full = from.full.empty() || from.full[static_cast<size_t>(y * pieces + piece)] != 0;
           parts.push_back({from.seen.frame.ptr(y) + first * px_bytes,
                            full ? nullptr : from.seen.weight.ptr(y) + first,
+                           from.luck.empty() ? nullptr : from.luck.ptr(y) + first,
                            gaussian_[k < at_ ? at_ - k : k - at_]});
         }
         Before before{nullptr, nullptr};

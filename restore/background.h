@@ -19,6 +19,7 @@ struct BackgroundParams {
   // sigma = ahead / 2 frames. 0: each frame by itself.
   int ahead = 14;
   bool registered = false;    // before the mean is taken (register.h)
+  bool lucky = false;         // px count by how sharp a frame is there (luck.h)
   SceneReference scene = {};  // to this; empty: to their mean
   PairFlow flow = FineFlow();
 };
@@ -38,7 +39,8 @@ struct BackgroundFrame {
 // 2 ahead + 1 frames in their own depth, however many there are.
 //
 // A px is the sum of the window's samples times their weights, over the sum of these weights: the Gaussian's,
-// times the share that does not move, times 1/4 where the frame was filled (border_fill.h). Where the
+// times the share that does not move, times 1/4 where the frame was filled (border_fill.h), and, if
+// wanted, times how lucky the frame is there beside the others. Where the
 // window's frames see less than a quarter of what they could, what is missing to that quarter is taken from
 // the background before: so a px that stays hidden keeps what was last seen of it. A px that no frame so far
 // saw is the mean of the frames as they are (what hides it, that is), and not `seen`.
@@ -65,6 +67,7 @@ class Background {
   struct Waiting {
     WeighedFrame seen;
     std::vector<unsigned char> full;  // by row and piece of a row: all weights are 255
+    cv::Mat luck;                     // LuckOf the frame, where wanted
   };
 
   void Add(WeighedFrame frame);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "restore/flow.h"
+#include "restore/luck.h"
 
 namespace shimmer::restore {
 namespace {
@@ -111,6 +112,7 @@ void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan
   plan.stack = true;
   plan.ahead = background.ahead;
   plan.registered = background.registered;
+  plan.lucky = facts.scene->luck_octaves >= kLeastLuck_octaves;
   plan.segment = params.segment && facts.scene->moving_share > 0;
   if (!plan.segment)
     plan.skipped.push_back(std::string("segmenting and blending: ") +

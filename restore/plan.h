@@ -39,6 +39,7 @@ struct RestorePlan {
   bool stack = false;    // each frame's background is the mean of those around it
   int ahead = 0;         // of them on either side
   bool registered = false;                // to one another before that
+  bool lucky = false;                     // and px count by how sharp a frame is there
   std::optional<TileSize> sharpen = {};   // by a network, in tiles
   std::vector<std::string> skipped = {};  // a line for each stage that is left out, and why
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "restore/luck.h"
 #include "restore/scene_reference.h"
 #include "restore/translate.h"
 
@@ -84,6 +85,7 @@ SceneFacts LookAtScene(Frames& video, std::span<const FrameShift> shifts, bool g
   SteadyReader reader(video, shifts, grey, step);
   SceneFacts facts{.segment = Survey(reader, places, frames, method, flow)};
   StrengthEstimate strength;
+  LuckSpread luck;
   std::optional<SceneReferenceMean> reference;
   if (method == SegmentMethod::kFused && registered != Register::kOff) reference.emplace();
   for (const int place : places) {
@@ -92,10 +94,12 @@ SceneFacts LookAtScene(Frames& video, std::span<const FrameShift> shifts, bool g
     if (!moving.empty()) facts.moving_share += cv::mean(moving)[0] / 255 / static_cast<double>(places.size());
     const cv::Mat hidden = moving.empty() ? cv::Mat(~steady.own) : cv::Mat(moving | ~steady.own);
     strength.Add(steady.frame, hidden);
+    luck.Add(steady.frame, hidden);
     if (reference) reference->Add({steady.frame, ~hidden});
   }
   if (method == SegmentMethod::kAof) facts.moving_share = facts.segment.aof.threshold_px > 0;
   facts.strength = strength.Result();
+  facts.luck_octaves = luck.Octaves();
   if (reference && BackgroundFor(facts.strength, registered).registered)
     facts.reference = reference->Result();
   return facts;

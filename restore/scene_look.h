@@ -19,6 +19,7 @@ struct SceneFacts {
   double moving_share =
       0;  // of the frames looked at, what moves in them; kAof: 1 or 0, whether anything does
   TurbulenceStrength strength = {};
+  double luck_octaves = 0;        // how much the blur changes (LuckSpread)
   SceneReference reference = {};  // of kFused, where frames are to be registered
 };
 

@@ -247,8 +247,10 @@ std::vector<NamedStage> StagesOf(const RestorePlan& plan, const VideoFacts& fact
   add("keep", std::make_unique<Keep>());
   if (plan.segment) add("segment", std::make_unique<Segment>(facts.scene->segment));
   if (plan.stack) {
-    const BackgroundParams params{
-        .ahead = plan.ahead, .registered = plan.registered, .scene = facts.scene->reference};
+    const BackgroundParams params{.ahead = plan.ahead,
+                                  .registered = plan.registered,
+                                  .lucky = plan.lucky,
+                                  .scene = facts.scene->reference};
     add("stack", std::make_unique<Stack>(params, facts.scene->segment.scene));
     add("blend", std::make_unique<Blend>());
   }

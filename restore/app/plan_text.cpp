@@ -91,7 +91,8 @@ std::string PlanText(const VideoFacts& facts, const RestorePlan& plan, const std
   if (plan.segment) stages += ", segment";
   if (plan.stack)
     stages += ", stack " + cli::Counted(2 * plan.ahead + 1, "frame") +
-              (plan.registered ? " registered" : "") + (plan.segment ? ", blend" : "");
+              (plan.registered ? " registered" : "") + (plan.lucky ? " by luck" : "") +
+              (plan.segment ? ", blend" : "");
   if (plan.sharpen) stages += ", sharpen";
   if (facts.scene) text += SceneText(*facts.scene);
   text += Cn2Text(facts, plan, optics);
@@ -127,6 +128,8 @@ Json PlanJson(const VideoFacts& facts, const RestorePlan& plan, const SharpenCou
           {"stack", plan.stack},
           {"ahead", plan.ahead},
           {"registered", plan.registered},
+          {"lucky", plan.lucky},
+          {"luck_octaves", facts.scene ? Json(facts.scene->luck_octaves) : Json()},
           {"tilt_variance_px2", facts.scene ? Json(facts.scene->strength.tilt_variance_px2) : Json()},
           {"moving_share", facts.scene ? Json(facts.scene->moving_share) : Json()},
           {"sharpen", plan.sharpen ? Json{{"tile_px", plan.sharpen->side_px},

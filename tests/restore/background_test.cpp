@@ -1,5 +1,7 @@
 #include "restore/background.h"
 
+#include "restore/luck.h"
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -38,27 +40,48 @@ std::vector<BackgroundFrame> Backgrounds(const std::vector<Seen>& frames, const 
 struct Twin {
   const std::vector<Seen>& frames;
   int ahead;
+  std::vector<cv::Mat> lucks = {};  // of the frames; none: all px are as lucky
 
   double Gaussian(size_t j, size_t k) const {
     const double away = static_cast<double>(j) - static_cast<double>(k);
     return std::exp(-0.5 * std::pow(away / std::max(ahead / 2.0, 0.5), 2));
   }
+  // Of 255, what a px shows of the scene.
+  static double Shows(const Seen& seen, int x, int y) {
+    const double weight = seen.moving.empty() ? 255 : 255 - seen.moving.at<uint8_t>(y, x);
+    const bool filled = !seen.steady.own.empty() && seen.steady.own.at<uint8_t>(y, x) == 0;
+    return filled ? std::nearbyint(weight / 4) : weight;
+  }
+  // 0 within 12 px of what is hidden or filled.
+  int LuckAt(size_t j, int x, int y) const {
+    if (lucks.empty()) return 0;
+    for (int v = std::max(y - 12, 0); v <= std::min(y + 12, lucks[j].rows - 1); ++v)
+      for (int u = std::max(x - 12, 0); u <= std::min(x + 12, lucks[j].cols - 1); ++u)
+        if (Shows(frames[j], u, v) < 255) return 0;
+    return lucks[j].at<uint8_t>(y, x);
+  }
   // Of sample c of a px of frame k's background; before: that of the frame before, NaN if it is not seen.
   double At(size_t k, int x, int y, int c, double before) const {
-    double sum = 0, own = 0, all = 0, as_they_are = 0;
-    for (size_t j = k < static_cast<size_t>(ahead) ? 0 : k - static_cast<size_t>(ahead);
-         j < std::min(frames.size(), k + static_cast<size_t>(ahead) + 1); ++j) {
+    double sum = 0, lucky = 0, own = 0, all = 0, as_they_are = 0;
+    const size_t first = k < static_cast<size_t>(ahead) ? 0 : k - static_cast<size_t>(ahead),
+                 end = std::min(frames.size(), k + static_cast<size_t>(ahead) + 1);
+    int luckiest = 0;
+    for (size_t j = first; j < end; ++j)
+      if (Shows(frames[j], x, y) > 0) luckiest = std::max(luckiest, LuckAt(j, x, y));
+    for (size_t j = first; j < end; ++j) {
       const Seen& seen = frames[j];
-      double weight = seen.moving.empty() ? 255 : 255 - seen.moving.at<uint8_t>(y, x);
-      if (!seen.steady.own.empty() && seen.steady.own.at<uint8_t>(y, x) == 0)
-        weight = std::nearbyint(weight / 4);
+      const double weight = Shows(seen, x, y);
       const double level = LevelAt(seen.steady.frame, x, y, c), share = Gaussian(j, k);
-      sum += share * weight / 255 * level, own += share * weight / 255;
+      const int less = std::max(luckiest - LuckAt(j, x, y), 0);
+      const double luck = std::pow(2, -(less / 2)) * (less % 2 == 0 ? 1 : 0.75);
+      sum += share * weight / 255 * luck * level, lucky += share * weight / 255 * luck;
+      own += share * weight / 255;
       as_they_are += share * level, all += share;
     }
     const bool known = !std::isnan(before);
     const double missing = std::max(0.0, (known ? 0.25 : 0.01) * all - own);
-    return (sum + missing * (known ? before : as_they_are / all)) / (own + missing);
+    const double mean = lucky > 0 ? sum / lucky : 0;
+    return (own * mean + missing * (known ? before : as_they_are / all)) / (own + missing);
   }
 };
 
@@ -78,19 +101,24 @@ TEST(Background, IsTheStatedMean) {
           if (k % 4 == 1) seen.steady.own = Noise(size, CV_8UC1, 300 + k) > 128;
           frames.push_back(seen);
         }
-        const auto found = Backgrounds(frames, {.ahead = ahead});
-        const Twin twin{frames, ahead};
-        const double step = 255 / WhiteOf(CV_MAT_DEPTH(type)),
-                     bound = CV_MAT_DEPTH(type) == CV_32F ? 1e-3 : 0.5 * step + 1e-3;
-        for (size_t k = 0; k < found.size(); ++k)
-          for (int y = 0; y < size.height; ++y)
-            for (int x = 0; x < size.width; ++x)
-              for (int c = 0; c < CV_MAT_CN(type); ++c) {
-                const bool known = k > 0 && found[k - 1].seen.at<uint8_t>(y, x) != 0;
-                const double before = known ? LevelAt(found[k - 1].frame, x, y, c) : NAN;
-                ASSERT_NEAR(LevelAt(found[k].frame, x, y, c), twin.At(k, x, y, c, before), bound)
-                    << type << " " << size << " ahead " << ahead << " frame " << k << " px " << x << " " << y;
-              }
+        for (const bool lucky : {false, true}) {
+          const auto found = Backgrounds(frames, {.ahead = ahead, .lucky = lucky});
+          Twin twin{frames, ahead};
+          if (lucky)
+            for (const Seen& seen : frames) twin.lucks.push_back(LuckOf(seen.steady.frame));
+          const double step = 255 / WhiteOf(CV_MAT_DEPTH(type)),
+                       bound = CV_MAT_DEPTH(type) == CV_32F ? 1e-3 : 0.5 * step + 1e-3;
+          for (size_t k = 0; k < found.size(); ++k)
+            for (int y = 0; y < size.height; ++y)
+              for (int x = 0; x < size.width; ++x)
+                for (int c = 0; c < CV_MAT_CN(type); ++c) {
+                  const bool known = k > 0 && found[k - 1].seen.at<uint8_t>(y, x) != 0;
+                  const double before = known ? LevelAt(found[k - 1].frame, x, y, c) : NAN;
+                  ASSERT_NEAR(LevelAt(found[k].frame, x, y, c), twin.At(k, x, y, c, before), bound)
+                      << type << " " << size << " ahead " << ahead << " frame " << k << " px " << x << " "
+                      << y;
+                }
+        }
       }
 }
 
@@ -199,6 +227,24 @@ TEST(Background, RegistrationHelps) {
     // itself leave less than half of it: 6 dB.
     EXPECT_GT(Psnr(known[k].frame, scene), Psnr(ours[k].frame, scene) + 6) << k;
   }
+}
+
+// Each frame is sharp in a part of the scene that another is not: the mean has the scene as sharp as they
+// have it.
+TEST(Background, IsAsSharpAsTheLuckiestFrames) {
+  const cv::Mat scene = SeenFrame({.size = {160, 120}});
+  std::vector<Seen> frames;
+  for (int k = 0; k < 16; ++k) {
+    cv::Mat frame;
+    cv::GaussianBlur(scene, frame, {}, 3);
+    const cv::Rect sharp(40 * (k % 4), 0, 40, 120);
+    scene(sharp).copyTo(frame(sharp));
+    frames.push_back({{frame, {}}, {}});
+  }
+  const auto plain = Backgrounds(frames, {.ahead = 8}),
+             lucky = Backgrounds(frames, {.ahead = 8, .lucky = true});
+  for (size_t k = 0; k < frames.size(); ++k)
+    EXPECT_GT(Psnr(lucky[k].frame, scene), Psnr(plain[k].frame, scene) + 6) << k;
 }
 
 TEST(BackgroundFor, FollowsTheStrength) {
