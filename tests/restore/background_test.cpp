@@ -73,7 +73,7 @@ struct Twin {
       const double weight = Shows(seen, x, y);
       const double level = LevelAt(seen.steady.frame, x, y, c), share = Gaussian(j, k);
       const int less = std::max(luckiest - LuckAt(j, x, y), 0);
-      const double luck = std::pow(2, -(less / 2)) * (less % 2 == 0 ? 1 : 0.75);
+      const double luck = std::pow(2, -(less / 4)) * (1 - 0.125 * (less % 4));
       sum += share * weight / 255 * luck * level, lucky += share * weight / 255 * luck;
       own += share * weight / 255;
       as_they_are += share * level, all += share;

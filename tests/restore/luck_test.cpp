@@ -43,12 +43,12 @@ TEST(Luck, IsOneWhateverTheThreadsAndBands) {
             0);
 }
 
-TEST(Luck, WeighsByTheFourthPower) {
+TEST(Luck, WeighsByTheSquareOfTheEnergy) {
   for (uint32_t less = 0; less < 200; ++less)
-    EXPECT_NEAR(LuckWeight(less) * std::pow(2, less / 2.0), 1, 0.07) << less;
+    EXPECT_NEAR(LuckWeight(less) * std::pow(2, less / 4.0), 1, 0.07) << less;
   EXPECT_EQ(LuckWeight(0), 1);
-  EXPECT_EQ(LuckWeight(1), 0.75);
-  EXPECT_EQ(LuckWeight(8), 1 / 16.0);
+  EXPECT_EQ(LuckWeight(1), 0.875);
+  EXPECT_EQ(LuckWeight(8), 1 / 4.0);
   EXPECT_GT(LuckWeight(253), 0);
 }
 

@@ -8,6 +8,7 @@ Beside what ../../browser/page.py asks of any page: tables sort both ways, the l
 the pointer, and the buttons choose what is on its right.
 """
 
+import json
 import pathlib
 import subprocess
 import sys
@@ -69,10 +70,31 @@ function act() {
 </script>"""
 
 
+PROGRAMS = []  # the folder of shimmer and unshimmer, where a page is made
+
+CONFIG = {"seed": 2, "clips": 3, "frames": 6, "size": [96, 80], "source": {"drawn": "bricks"},
+          "tilt": {"strength_px": {"choice": [2, 4]}, "base_frequency": 0.06}, "blur": {"max_sigma_px": 1},
+          "objects": [{"drawn": "box", "height_px": 24, "hue": 0.6,
+                       "motion": {"start_x": 0.3, "start_y": 0.6, "speed_px": 4}}],
+          "output": {"truth": ["mask", "shake"]}}
+
+
 def make_report(program, folder):
-    """A page to look at: of 40 clips, with pictures."""
+    """A page to look at: of 40 clips, with pictures, and with every odd value that there can be."""
+    PROGRAMS.append(program.parent)
     subprocess.run([program, folder], check=True)
     return folder / "report.html"
+
+
+def evaluated_faults(chromium, folder):
+    """What is wrong with a page that the program itself makes, of clips that it made."""
+    if not PROGRAMS:
+        return []
+    (folder / "set.json").write_text(json.dumps(CONFIG))
+    subprocess.run([PROGRAMS[0] / "shimmer", "generate", folder / "set.json", "--out", folder / "set", "--quiet"], check=True)
+    subprocess.run([PROGRAMS[0] / "unshimmer", "evaluate", folder / "set", "--out", folder / "evaluated", "--baselines",
+                    "--real", folder / "set/clips/000000/turb", "--quiet"], check=True, stdout=subprocess.DEVNULL)
+    return [f"evaluated: {fault}" for fault in click_faults(folder / "evaluated/report.html", chromium, folder)]
 
 
 def own_faults(seen):
@@ -160,7 +182,8 @@ def unseen_faults(report, chromium, folder):
 
 def look_at(report, chromium, folder, pictures):
     return page.look(report, chromium, folder, pictures, own_faults) + click_faults(report, chromium, folder) + \
-        scriptless_faults(report, chromium, folder) + unseen_faults(report, chromium, folder)
+        scriptless_faults(report, chromium, folder) + evaluated_faults(chromium, folder) + \
+        unseen_faults(report, chromium, folder)
 
 
 if __name__ == "__main__":
