@@ -67,6 +67,15 @@ std::vector<int> ShapeOf(const std::filesystem::path& path, std::string_view tex
   return shape;
 }
 
+// Fortran's order: the row's number runs fastest, then the column's, then the channel's.
+void PutColumnsFirst(const uint8_t* data, const std::vector<int>& shape, cv::Mat& array) {
+  const size_t bytes = array.elemSize1();
+  for (int channel = 0; channel < shape[2]; ++channel)
+    for (int x = 0; x < shape[1]; ++x)
+      for (int y = 0; y < shape[0]; ++y, data += bytes)
+        std::memcpy(array.ptr(y, x) + static_cast<size_t>(channel) * bytes, data, bytes);
+}
+
 }  // namespace
 
 cv::Mat ReadNpy(const std::filesystem::path& path) {
@@ -75,14 +84,16 @@ cv::Mat ReadNpy(const std::filesystem::path& path) {
   const std::string_view kind = After(path, header.text, "descr").substr(0, 5);
   if (kind != "'<f4'" && kind != "'<f8'")
     Refuse(path, "is of " + std::string(kind) + ", must be '<f4' or '<f8'");
-  if (!After(path, header.text, "fortran_order").starts_with("False"))
-    Refuse(path, "is in Fortran's order, must be in C's");
   const std::vector<int> shape = ShapeOf(path, After(path, header.text, "shape"));
   cv::Mat array(shape[0], shape[1], CV_MAKETYPE(kind == "'<f8'" ? CV_64F : CV_32F, shape[2]));
   const size_t wanted = array.total() * array.elemSize(), there = bytes.size() - header.bytes;
   if (there < wanted)
     Refuse(path, "is cut off: " + std::to_string(there) + " of " + std::to_string(wanted) + " bytes");
-  std::memcpy(array.data, bytes.data() + header.bytes, wanted);
+  const uint8_t* data = bytes.data() + header.bytes;
+  if (After(path, header.text, "fortran_order").starts_with("True"))
+    PutColumnsFirst(data, shape, array);
+  else
+    std::memcpy(array.data, data, wanted);
   return array;
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/command_line.h"
+#include "cli/error_line.h"
 #include "cli/exit_codes.h"
 #include "cli/number_text.h"
 #include "cli/progress.h"
@@ -157,6 +158,19 @@ void WorkAtOnce(Evaluating& evaluating, int jobs, int threads) {
     if (each) std::rethrow_exception(each);
 }
 
+// The first of them; the report has all.
+void PrintFailures(const Evaluation& evaluation) {
+  std::string first;
+  int64_t count = 0;
+  for (const auto* clips : {&evaluation.clips, &evaluation.real})
+    for (const ClipResult& clip : *clips)
+      for (const VariantError& error : clip.errors)
+        if (count++ == 0) first = "clip " + clip.facts.name + ", " + error.variant + ": " + error.error;
+  if (count == 0) return;
+  const std::string more = count > 1 ? " (and " + cli::Counted(count - 1, "other") + " that failed)" : "";
+  cli::PrintError("unshimmer", first + more);
+}
+
 // Whoever finishes last writes the report of all shards.
 void WriteReport(const ReportFolder& folder, const EvaluateOptions& options) {
   std::optional<dataset::FolderLock> whole;
@@ -168,6 +182,7 @@ void WriteReport(const ReportFolder& folder, const EvaluateOptions& options) {
     }
   const Evaluation evaluation = folder.Read();
   folder.WriteResults(evaluation);
+  PrintFailures(evaluation);
   cli::Print(ResultsTable(evaluation) + (options.out / "report.html").string() + "\n");
 }
 

@@ -205,6 +205,7 @@ TEST_F(Evaluate, AClipThatFailsIsRecordedAndTheRestGoesOn) {
   fs::resize_file(folder_ / "damaged/clips/000001/turb/0004.png", 100);
   const Ran ran = Run({}, (folder_ / "damaged").string());
   EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("unshimmer: clip 000001, "), HasSubstr("0004.png")));
   const Json failed = Results();
   EXPECT_THAT(failed.at("clips")[1].at("errors")[0].at("error").get<std::string>(), HasSubstr("0004.png"));
   EXPECT_TRUE(RowOf(failed.at("clips")[2], "full").at("psnr_db").is_number());
