@@ -24,36 +24,41 @@ std::vector<std::string> KeysOf(const Map& map) {
 }
 
 template <class T>
-T OneOf(const std::map<std::string, T>& values, const std::string& key, const std::string& value,
+T OneOf(const std::map<std::string, T>& values, const std::string& value,
         const std::vector<std::string>& more = {}) {
   if (const auto found = values.find(value); found != values.end()) return found->second;
   std::vector<std::string> names = KeysOf(values);
   names.insert(names.end(), more.begin(), more.end());
-  throw std::invalid_argument(key + "=" + value + ": must be " + cli::Listed(names, "or"));
+  throw std::invalid_argument("must be " + cli::Listed(names, "or"));
 }
 
 void ChangeSegment(RestoreSettings& settings, const std::string& value) {
   settings.params.segment = value != "off";
-  if (settings.params.segment) settings.params.method = OneOf(kMethods, "segment", value, {"off"});
+  if (settings.params.segment) settings.params.method = OneOf(kMethods, value, {"off"});
 }
 
+void ChangeRegister(RestoreSettings& settings, const std::string& value) {
+  settings.params.registered = OneOf(kRegisters, value);
+}
+void ChangeFlow(RestoreSettings& settings, const std::string& value) { settings.flow = value; }
+void ChangeModel(RestoreSettings& settings, const std::string& value) { settings.model = value; }
+
+template <bool& (*kMember)(RestoreSettings&)>
+void Switch(RestoreSettings& settings, const std::string& value) {
+  kMember(settings) = OneOf(kSwitches, value);
+}
+bool& Stabilise(RestoreSettings& settings) { return settings.params.stabilise; }
+bool& Stack(RestoreSettings& settings) { return settings.params.stack; }
+bool& Sharpen(RestoreSettings& settings) { return settings.sharpen; }
+
 using Change = void (*)(RestoreSettings& settings, const std::string& value);
-const std::map<std::string, Change> kChanges = {
-    {"stabilise",
-     [](RestoreSettings& settings, const std::string& value) {
-       settings.params.stabilise = OneOf(kSwitches, "stabilise", value);
-     }},
-    {"segment", ChangeSegment},
-    {"flow", [](RestoreSettings& settings, const std::string& value) { settings.flow = value; }},
-    {"register",
-     [](RestoreSettings& settings, const std::string& value) {
-       settings.params.registered = OneOf(kRegisters, "register", value);
-     }},
-    {"stack", [](RestoreSettings& settings,
-                 const std::string& value) { settings.params.stack = OneOf(kSwitches, "stack", value); }},
-    {"sharpen", [](RestoreSettings& settings,
-                   const std::string& value) { settings.sharpen = OneOf(kSwitches, "sharpen", value); }},
-    {"model", [](RestoreSettings& settings, const std::string& value) { settings.model = value; }}};
+const std::map<std::string, Change> kChanges = {{"stabilise", Switch<Stabilise>},
+                                                {"segment", ChangeSegment},
+                                                {"flow", ChangeFlow},
+                                                {"register", ChangeRegister},
+                                                {"stack", Switch<Stack>},
+                                                {"sharpen", Switch<Sharpen>},
+                                                {"model", ChangeModel}};
 
 }  // namespace
 
@@ -95,7 +100,11 @@ void ChangeSetting(RestoreSettings& settings, const std::string& key, const std:
   if (change == kChanges.end())
     throw std::invalid_argument(key + "=" + value + ": there is no such setting, must be one of " +
                                 cli::Listed(KeysOf(kChanges), "and"));
-  change->second(settings, value);
+  try {
+    change->second(settings, value);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(key + "=" + value + ": " + error.what());
+  }
 }
 
 }  // namespace shimmer::restore::app

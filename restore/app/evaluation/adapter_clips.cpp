@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <stdexcept>
 
 #include "restore/app/evaluation/adapter.h"
@@ -38,18 +37,22 @@ std::optional<double> TiltOf(const fs::path& fields) {
   return std::sqrt(squares / count);
 }
 
+ClipFacts WhatFramesSay(const std::string& name, FrameReader& frames) {
+  return {.name = name,
+          .frames = frames.count(),
+          .size = frames.Read(0).pixels.size(),
+          .tilt_rms_px = {},
+          .shakes = {},
+          .objects = {}};
+}
+
 class FilesClip : public TrueClip {
  public:
   FilesClip(const fs::path& folder, const Adapter& adapter, const std::string& clip,
             const std::atomic<bool>& stop)
       : margin_px_(adapter.margin_px) {
     turb_ = OpenFrames(folder / adapter.turb.Of(clip), stop);
-    facts_ = {.name = clip,
-              .frames = turb_->count(),
-              .size = turb_->Read(0).pixels.size(),
-              .tilt_rms_px = {},
-              .shakes = {},
-              .objects = {}};
+    facts_ = WhatFramesSay(clip, *turb_);
     if (!adapter.clean.empty()) clean_ = Opened(folder / adapter.clean.Of(clip), stop);
     if (!adapter.mask.empty()) mask_ = Opened(folder / adapter.mask.Of(clip), stop);
     if (!adapter.warp.empty()) facts_.tilt_rms_px = TiltOf(folder / adapter.warp.Of(clip));
@@ -118,12 +121,7 @@ class RealClip : public TrueClip {
  public:
   RealClip(const fs::path& video, const std::string& name, const std::atomic<bool>& stop)
       : frames_(OpenFrames(video, stop)) {
-    facts_ = {.name = name,
-              .frames = frames_->count(),
-              .size = frames_->Read(0).pixels.size(),
-              .tilt_rms_px = {},
-              .shakes = {},
-              .objects = {}};
+    facts_ = WhatFramesSay(name, *frames_);
   }
   const ClipFacts& facts() const override { return facts_; }
   cv::Mat Turb(int64_t frame) override { return frames_->Read(frame).pixels; }

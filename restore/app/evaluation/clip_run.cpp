@@ -125,8 +125,9 @@ std::vector<ResultRow> ClipRun::RunPipeline(const Variant& variant, const Restor
 }
 
 std::vector<ResultRow> ClipRun::RunBaseline(const Variant& variant, const RestoreTools& tools) {
-  const VideoFacts& facts = LookBy(variant.settings, tools).looked.facts;
-  const bool moved = !facts.shifts.empty() && !IsSteady(facts.shifts);
+  const LookedAt& looked = LookBy(variant.settings, tools).looked;
+  const VideoFacts& facts = looked.facts;
+  const bool moved = PlanFor(looked, variant.settings, tools).stabilise;  // as the pipeline does
   SteadyFrames steady(video_, facts.shifts, moved);
   SequenceMeter meter;
   double measuring_s = 0;

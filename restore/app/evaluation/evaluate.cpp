@@ -18,7 +18,6 @@
 #include "restore/app/evaluation/report_folder.h"
 #include "restore/app/evaluation/result_text.h"
 #include "restore/app/threads.h"
-#include "sim/dataset/folder_lock.h"
 #include "sim/dataset/interrupted.h"
 
 namespace shimmer::restore::app {
@@ -172,14 +171,11 @@ void PrintFailures(const Evaluation& evaluation) {
 }
 
 // Whoever finishes last writes the report of all shards.
-void WriteReport(const ReportFolder& folder, const EvaluateOptions& options) {
-  std::optional<dataset::FolderLock> whole;
-  if (!options.shard.whole()) try {
-      whole.emplace(options.out, dataset::Shard());
-    } catch (const dataset::FolderBusy&) {
-      cli::Print("other shards are still at work: the last one writes the report\n");
-      return;
-    }
+void WriteReport(ReportFolder& folder, const EvaluateOptions& options) {
+  if (!folder.MayWriteResults()) {
+    cli::Print("other shards are still at work: the last one writes the report\n");
+    return;
+  }
   const Evaluation evaluation = folder.Read();
   folder.WriteResults(evaluation);
   PrintFailures(evaluation);
@@ -208,7 +204,7 @@ int Evaluate(const EvaluateOptions& options, const std::atomic<bool>& stop) {
     for (size_t i = 0; i < options.real.size(); ++i)
       real[sets.real->names()[i]] = fs::absolute(options.real[i]).lexically_normal().string();
   ReportFolder folder(options.out, sets.truth ? sets.truth->Identity() : nullptr, options.set.string(),
-                      sets.truth ? sets.truth->count() : 0, variants, real);
+                      sets.truth ? sets.truth->count() : 0, variants, real, options.shard);
 
   int64_t wanted = 0, done = 0;
   for (Task& task : tasks)
@@ -223,7 +219,6 @@ int Evaluate(const EvaluateOptions& options, const std::atomic<bool>& stop) {
         task.variants.push_back(&variant);
     }
   {
-    const dataset::FolderLock lock(options.out, options.shard);
     const Threads limit(options.threads);
     cli::Progress progress("results", wanted, done, options.quiet);
     Evaluating evaluating(tasks, folder, progress, stop);

@@ -58,8 +58,8 @@ void RequireSame(const fs::path& folder, const std::string& what, const json& th
 
 ReportFolder::ReportFolder(fs::path folder, const json& set, const std::string& set_name,
                            int64_t clips_of_set, const std::vector<Variant>& variants,
-                           const std::map<std::string, std::string>& real)
-    : folder_(std::move(folder)) {
+                           const std::map<std::string, std::string>& real, const dataset::Shard& shard)
+    : folder_(std::move(folder)), shard_(shard) {
   if (fs::exists(folder_ / kDescription)) {
     description_ = ReadJson(folder_ / kDescription);
     RequireSame(folder_, "format", description_.at("format"), kFormat);
@@ -95,7 +95,22 @@ ReportFolder::ReportFolder(fs::path folder, const json& set, const std::string& 
     known[name] = path;
   }
   dataset::MakeFolders(folder_);
-  WriteText(folder_ / kDescription, description_.dump(2) + "\n");
+  lock_.emplace(folder_, shard_);
+  // (shards that begin at once write the same, each beside under a name of its own)
+  const std::string text = description_.dump(2) + "\n";
+  dataset::WriteFileAtomically(folder_ / kDescription, dataset::AsBytes(text),
+                               folder_ / (kDescription + shard_.Suffix() + ".new"));
+}
+
+bool ReportFolder::MayWriteResults() {
+  if (shard_.whole()) return true;
+  lock_.reset();
+  try {
+    lock_.emplace(folder_, dataset::Shard());
+  } catch (const dataset::FolderBusy&) {
+    return false;
+  }
+  return true;
 }
 
 fs::path ReportFolder::FileOf(bool is_real, const std::string& clip, const std::string& variant) const {

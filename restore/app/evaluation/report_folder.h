@@ -14,6 +14,8 @@
 
 #include "restore/app/evaluation/results.h"
 #include "restore/app/evaluation/variants.h"
+#include "sim/dataset/folder_lock.h"
+#include "sim/dataset/shard.h"
 
 namespace shimmer::restore::app {
 
@@ -23,10 +25,11 @@ class ReportFolder {
  public:
   // Creates it, or takes up what is there. set: its identity, null for none; set_name: as it was given; real:
   // the videos' paths by name. Throws std::invalid_argument, with nothing touched, where the folder holds
-  // something else, another set's results, or those of other variants or videos of these names.
+  // something else, another set's results, or those of other variants or videos of these names; and
+  // dataset::FolderBusy while another process writes there (this shard, or all of it).
   ReportFolder(std::filesystem::path folder, const nlohmann::json& set, const std::string& set_name,
                int64_t clips_of_set, const std::vector<Variant>& variants,
-               const std::map<std::string, std::string>& real);
+               const std::map<std::string, std::string>& real, const dataset::Shard& shard);
 
   const std::filesystem::path& path() const { return folder_; }
 
@@ -38,6 +41,8 @@ class ReportFolder {
 
   // All that is there, of this run and others.
   Evaluation Read() const;
+  // Ends the writing of clips. Whether this process may write the report: not while other shards are at work.
+  bool MayWriteResults();
   // results.json, results.csv and report.html.
   void WriteResults(const Evaluation& evaluation) const;
 
@@ -46,6 +51,8 @@ class ReportFolder {
   std::vector<ClipResult> ReadClips(bool is_real, const std::vector<VariantText>& variants) const;
 
   std::filesystem::path folder_;
+  dataset::Shard shard_;
+  std::optional<dataset::FolderLock> lock_;
   nlohmann::json description_;  // evaluation.json
 };
 

@@ -56,9 +56,9 @@ void SequenceMeter::AddTo(Measures& measures) const {
 
 void MaskMeter::Add(const cv::Mat& found, const TrueFrame& truth) {
   if (!truth.moving) return;
-  const cv::Mat nothing = found.empty() ? cv::Mat::zeros(truth.seen.size(), CV_8UC1) : cv::Mat();
-  const MaskCounts counts =
-      CompareMasks((found.empty() ? nothing : found) & truth.seen, *truth.moving & truth.seen);
+  cv::Mat found_seen = cv::Mat::zeros(truth.seen.size(), CV_8UC1);
+  if (!found.empty()) found_seen = found & truth.seen;
+  const MaskCounts counts = CompareMasks(found_seen, *truth.moving & truth.seen);
   iou_.push_back(counts.Iou());
   precision_.push_back(counts.Precision());
   recall_.push_back(counts.Recall());

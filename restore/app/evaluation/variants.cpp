@@ -96,9 +96,10 @@ VariantText Variant::Text() const {
 nlohmann::json Variant::Identity() const {
   nlohmann::json identity = {{"kind", NameOf(kind)}};
   if (kind == VariantKind::kMethod) identity["folder"] = std::filesystem::absolute(folder).lexically_normal();
-  if (kind != VariantKind::kPipeline && kind != VariantKind::kAblation) return identity;
+  if (kind == VariantKind::kMethod || kind == VariantKind::kInput) return identity;
   const RestoreParams& params = settings.params;
   identity["stabilise"] = OnOff(params.stabilise);
+  if (kind == VariantKind::kBaseline) return identity;
   identity["segment"] = !params.segment ? "off" : params.method == SegmentMethod::kFused ? "fused" : "aof";
   identity["flow"] = settings.flow;
   identity["register"] =

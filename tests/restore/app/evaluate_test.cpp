@@ -6,6 +6,7 @@
 
 #include "restore/psnr.h"
 #include "restore/translate.h"
+#include "sim/dataset/folder_lock.h"
 #include "tests/restore/app/unshimmer.h"
 #include "tests/restore/frames.h"
 
@@ -172,6 +173,20 @@ TEST_F(Evaluate, ShardsTogetherAreTheWhole) {
   without_times(in_parts);
   without_times(whole);
   EXPECT_EQ(in_parts, whole);
+}
+
+TEST_F(Evaluate, ShardsAtOnceAndARunTooManyDoNotDisturbOneAnother) {
+  const auto start = [&](const std::string& shard) {
+    return shimmer::app::Running(folder_.path(),
+                                 {"evaluate", Set(), "--out", "report", "--quiet", "--shard", shard}, false,
+                                 UNSHIMMER_PROGRAM);
+  };
+  auto first = start("0/2"), second = start("1/2");
+  ExpectDone(first.Wait());
+  ExpectDone(second.Wait());
+  EXPECT_EQ(Results().at("clips").size(), 3);
+  const dataset::FolderLock lock(folder_ / "report", dataset::Shard());
+  ExpectRefused(Run({}), 1, {"report"});
 }
 
 TEST_F(Evaluate, AReportOfAnotherSetOrAnotherVariantIsLeftAlone) {
