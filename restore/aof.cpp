@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
 #include "restore/detail_level.h"
@@ -93,6 +94,12 @@ Place PlaceAt(int64_t k, const std::vector<SteadyFrame>& frames) {
 }
 
 int NeighbourAt(int n) { return (n % 2 == 0 ? -2 : 2) << (n / 2); }
+
+double MeanDistance(int neighbours) {
+  double sum = 0;
+  for (int n = 0; n < neighbours; ++n) sum += std::abs(NeighbourAt(n));
+  return sum / neighbours;
+}
 
 std::vector<cv::Mat> AofOf(DenseFlow& flow, const Place& place, int most_neighbours) {
   return MotionOf(flow, place, most_neighbours).aof;

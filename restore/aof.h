@@ -16,6 +16,8 @@ namespace shimmer::restore {
 inline constexpr int kMostNeighbours = 6, kReach = 8;
 // The distance in time of neighbour n, of 0 to 5: -2, 2, -4, 4, -8, 8.
 int NeighbourAt(int n);
+// How far the nearest N are on average: what goes on by v px a frame has an AOF of v times it.
+double MeanDistance(int neighbours);
 
 struct AofSettings {
   int neighbours = 4;       // N: 2, 4 or 6

@@ -132,10 +132,10 @@ void SegmentSurvey::Add(const Place& place, int64_t number) {
 
 SegmentSettings SegmentSurvey::Settings() const {
   if (samples_.empty()) throw std::invalid_argument("survey without a place");
-  SegmentSettings settings{method_, choice_.Settings(), {}, {}, maker_};
+  SegmentSettings settings{method_, choice_.Settings(), TypicalSpeed(speeds_, samples_), {}, {}, maker_};
   if (method_ == SegmentMethod::kAof) return settings;
   std::vector<SceneSample> samples = samples_;
-  const double typical = std::max(TypicalSpeed(speeds_, samples), kLeastSpeed_px);
+  const double typical = std::max(settings.typical_speed_px, kLeastSpeed_px);
   cv::Mat unvisited(samples[0].own.size(), CV_8UC1, cv::Scalar(255));
   cv::Mat travel_px = cv::Mat::zeros(samples[0].own.size(), CV_32FC1);
   for (size_t k = 0; k < samples.size(); ++k) {

@@ -51,6 +51,9 @@ double MeanLength(const std::vector<cv::Mat>& flows, int first, int count, int y
 TEST(Aof, NeighboursAreSpreadOverBothSides) {
   const int times[] = {-2, 2, -4, 4, -8, 8};
   for (int n = 0; n < kMostNeighbours; ++n) EXPECT_EQ(NeighbourAt(n), times[n]);
+  EXPECT_EQ(MeanDistance(2), 2);
+  EXPECT_EQ(MeanDistance(4), 3);
+  EXPECT_DOUBLE_EQ(MeanDistance(6), 14.0 / 3);
 }
 
 TEST(Aof, IsTheMeanOfLengths) {

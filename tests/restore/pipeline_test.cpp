@@ -4,6 +4,8 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "restore/border_fill.h"
@@ -274,6 +276,22 @@ TEST(Restore, LeavesAloneWhatMovesEverywhere) {
     SeenFrame({.size = {160, 120}, .tilt_rms_px = 3, .frame = k})
         .convertTo(strong.emplace_back(), CV_8U, 255);
   EXPECT_TRUE(RunOn(strong).plan.stack);
+}
+
+// A camera that goes into its scene: what it sees grows from frame to frame, which no shift follows.
+TEST(Restore, LeavesAloneWhereTheCameraGoesAlong) {
+  std::vector<cv::Mat> walk;
+  for (uint32_t k = 0; k < 24; ++k) {
+    cv::Mat frame;
+    SeenFrame({.size = {240, 180}, .tilt_rms_px = 0.6, .frame = k}).convertTo(frame, CV_8U, 255);
+    const double grown = std::pow(1.015, k);
+    const cv::Matx23d about_middle(grown, 0, 120 * (1 - grown), 0, grown, 90 * (1 - grown));
+    cv::warpAffine(frame, frame, about_middle, frame.size(), cv::INTER_CUBIC);
+    walk.push_back(frame);
+  }
+  const Outcome run = RunOn(walk);
+  EXPECT_FALSE(run.plan.stack);
+  EXPECT_TRUE(Skips(run.plan, "segmenting, stacking and blending: most of the picture moves on"));
 }
 
 TEST(PlanRestore, NamesTheFrameWhereAnotherSceneBegins) {
