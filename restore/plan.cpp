@@ -70,7 +70,7 @@ void PlanPicture(const VideoFacts& facts, RestorePlan& plan) {
 
 // Below it the tilt is less than what the averaging of frames itself makes softer.
 constexpr double kLeastTilt_px = 0.05;
-constexpr double kMostMoving = 0.5;  // share of the picture
+constexpr double kMostMoving = 0.5, kLeastMoving = 0.002;  // shares of the picture
 // Air whose tilt is v along each axis moves a px by 1.77 v between two frames, on average. And
 // StrengthEstimate finds no more than 3.1 px in clips of Shimmer's of 4.9 px.
 constexpr double kMostOfTilt = 2, kLeastMotion_px = 2.5, kMostTilt_px = 6;
@@ -125,16 +125,21 @@ void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan
                            (params.segment ? "nothing moves" : "they are switched off"));
 }
 
-bool IsTooWeak(const VideoFacts& facts) {
-  return facts.scene && facts.scene->strength.texture > 0 && TiltOf(*facts.scene) < kLeastTilt_px;
+// Why a network would only do harm: it has seen nothing but what the air blurs, and would take a scene's own
+// softness for the air's. Empty: it would not.
+std::string NeedlessSharpening(const VideoFacts& facts) {
+  if (!facts.scene) return {};
+  const SceneFacts& scene = *facts.scene;
+  if (scene.strength.texture == 0)
+    return scene.moving_share < kLeastMoving ? "there is no texture that the air could blur" : "";
+  return TiltOf(scene) < kLeastTilt_px ? "the turbulence is too weak to need it" : "";
 }
 
-// Last, as the area is known by then. What the air does not move it hardly blurs: the network, which has seen
-// nothing else, would take the scene's own softness for the air's.
+// Last, as the area is known by then.
 void PlanSharpening(const VideoFacts& facts, const RestoreParams& params, RestorePlan& plan) {
-  if (!params.sharpen || IsTooWeak(facts)) {
-    plan.skipped.push_back(std::string("sharpening: ") +
-                           (params.sharpen ? "the turbulence is too weak to need it" : "it is switched off"));
+  const std::string why = params.sharpen ? NeedlessSharpening(facts) : "it is switched off";
+  if (!why.empty()) {
+    plan.skipped.push_back("sharpening: " + why);
     return;
   }
   RequireTile(*params.sharpen, SharpenedSize(plan));

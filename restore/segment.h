@@ -24,10 +24,10 @@ enum class SegmentMethod {
 struct SegmentSettings {
   SegmentMethod method;
   AofSettings aof;
-  double typical_speed_px;  // a frame, of the reduced frame: the median of Motion::speed
-  StillScene scene;         // of kFused
-  cv::Mat near_movers;      // of kFused: CV_8UC1, 0 far from all that the flow saw move
-  FlowMaker flow;           // by which aof was settled; of kAof
+  double typical_speed_px = 0;  // a frame, of the reduced frame: the median of Motion::speed
+  StillScene scene;             // of kFused
+  cv::Mat near_movers;          // of kFused: CV_8UC1, 0 far from all that the flow saw move
+  FlowMaker flow;               // by which aof was settled; of kAof
 };
 
 // Where to look in a video of so many frames: evenly spread, at most 32 of them, in order.

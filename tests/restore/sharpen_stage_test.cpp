@@ -48,6 +48,17 @@ TEST(PlanSharpening, LeavesStillAirAlone) {
   EXPECT_THAT(still.skipped, Contains("sharpening: the turbulence is too weak to need it"));
 }
 
+// Mist with nothing in it that moves.
+TEST(PlanSharpening, LeavesAloneWhatHasNoTexture) {
+  VideoFacts facts = FactsOf(0);
+  facts.scene->strength.texture = 0;
+  const RestorePlan mist = PlanRestore(facts, {.sharpen = kTile});
+  EXPECT_FALSE(mist.sharpen);
+  EXPECT_THAT(mist.skipped, Contains("sharpening: there is no texture that the air could blur"));
+  facts.scene->moving_share = 0.01;
+  EXPECT_TRUE(PlanRestore(facts, {.sharpen = kTile}).sharpen);
+}
+
 // Of one frame it is all that can be done. Frames that are all the same show no air.
 TEST(PlanSharpening, IsForOneFrameToo) {
   VideoFacts facts{.size = {100, 80}, .type = CV_8UC1, .frames = 1, .alike = true};
