@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
@@ -13,7 +12,7 @@
 
 #include "restore/levels.h"
 #include "restore/luck.h"
-#include "restore/weighted_mean.h"
+#include "restore/window_mean.h"
 
 namespace shimmer::restore {
 namespace {
@@ -21,11 +20,8 @@ namespace {
 constexpr int kMostAhead = 14;
 constexpr double kFullWindow_px = 1;  // tilt from which on it is the longest
 constexpr double kLeastRegistered_px = 0.25;
-constexpr int kFilledShare = 4;    // a filled px counts that many times less
-constexpr float kEnough = 0.25f;   // share of the weights that needs no background before
-constexpr float kNothing = 0.01f;  // share of the weights that is as good as nothing
+constexpr int kFilledShare = 4;  // a filled px counts that many times less
 constexpr int kNearMoving_px = 12;
-constexpr int kPiece_px = 128;  // of a row; its sums stay in the first cache
 
 int PiecesOf(int cols) { return (cols + kPiece_px - 1) / kPiece_px; }
 
@@ -52,123 +48,6 @@ cv::Mat LuckBeside(const WeighedFrame& frame) {
   cv::erode(frame.weight, near_moving, square);
   luck.setTo(0, near_moving < 255);
   return luck;
-}
-
-// One frame of the window at one piece of a row.
-struct Part {
-  const uint8_t* row;
-  const uint8_t* weight;  // nullptr: all 255
-  const uint8_t* luck;    // nullptr: all are as lucky
-  float gaussian;
-};
-
-// What is known before, at that piece; nullptr if nothing is.
-struct Before {
-  const uint8_t *row, *seen;
-};
-
-template <class Sample>
-const Sample* SamplesOf(const Part& part) {
-  return reinterpret_cast<const Sample*>(part.row);
-}
-
-// What the parts of a piece come to: sums of samples times weights, these weights, and what the weights were
-// if all were as lucky.
-template <int kChannels>
-struct Sums {
-  std::array<float, kPiece_px * kChannels> sum{};
-  std::array<float, kPiece_px> weights{}, shown{};
-};
-
-template <class Sample, int kChannels>
-void AddPlain(const std::vector<Part>& parts, int px, Sums<kChannels>& sums) {
-  float full = 0;                       // weights of all px of parts that have no mask
-  std::array<const Sample*, 4> rows{};  // that wait for others, to be added at once
-  std::array<float, 4> shares{};
-  size_t waiting = 0;
-  for (const Part& part : parts) {
-    if (part.weight != nullptr) {
-      AddWeighed<kChannels>(SamplesOf<Sample>(part), part.weight, part.gaussian, px, sums.sum.data(),
-                            sums.weights.data());
-      continue;
-    }
-    full += part.gaussian;
-    rows[waiting] = SamplesOf<Sample>(part), shares[waiting] = part.gaussian;
-    if (++waiting < rows.size()) continue;
-    AddSamples(rows, shares, px * kChannels, sums.sum.data());
-    waiting = 0;
-  }
-  for (size_t k = 0; k < waiting; ++k) AddSamples(rows[k], shares[k], px * kChannels, sums.sum.data());
-  for (float& weight : sums.weights) weight += full;
-  sums.shown = sums.weights;
-}
-
-template <class Sample, int kChannels>
-void AddLucky(const std::vector<Part>& parts, int px, Sums<kChannels>& sums) {
-  std::array<uint8_t, kPiece_px> luckiest{};  // of those that show the px
-  for (const Part& part : parts)
-    for (int x = 0; x < px; ++x)
-      if (part.weight == nullptr || part.weight[x] != 0)
-        luckiest[static_cast<size_t>(x)] = std::max(luckiest[static_cast<size_t>(x)], part.luck[x]);
-  for (const Part& part : parts) {
-    const auto* samples = SamplesOf<Sample>(part);
-    for (int x = 0; x < px; ++x) {
-      const auto at = static_cast<size_t>(x);
-      const float shown =
-          part.weight == nullptr ? part.gaussian : part.gaussian / 255 * static_cast<float>(part.weight[x]);
-      const uint32_t less = luckiest[at] - std::min(part.luck[x], luckiest[at]);
-      const float weight = shown * LuckWeight(less);
-      sums.shown[at] += shown;
-      sums.weights[at] += weight;
-      for (int c = 0; c < kChannels; ++c)
-        sums.sum[at * kChannels + static_cast<size_t>(c)] +=
-            weight * static_cast<float>(samples[x * kChannels + c]);
-    }
-  }
-}
-
-// The mean of a piece of px, and where it is seen.
-template <class Sample, int kChannels>
-void MeanOf(const std::vector<Part>& parts, const Before& before, int px, uint8_t* to_bytes, uint8_t* seen) {
-  Sums<kChannels> sums;
-  if (parts[0].luck != nullptr)
-    AddLucky<Sample, kChannels>(parts, px, sums);
-  else
-    AddPlain<Sample, kChannels>(parts, px, sums);
-  float all = 0;
-  for (const Part& part : parts) all += part.gaussian;
-
-  auto* to = reinterpret_cast<Sample*>(to_bytes);
-  const auto* last = reinterpret_cast<const Sample*>(before.row);
-  std::array<float, kPiece_px * kChannels> as_they_are{};
-  bool mixed = false;
-  std::fill(seen, seen + px, uint8_t{255});
-  for (int x = 0; x < px; ++x) {
-    const auto at = static_cast<size_t>(x);
-    const bool known = before.row != nullptr && before.seen[x] != 0;
-    const float shown = sums.shown[at], missing = std::max(0.0f, (known ? kEnough : kNothing) * all - shown);
-    if (!known && missing > 0 && !mixed) {
-      for (const Part& part : parts)
-        AddSamples(SamplesOf<Sample>(part), part.gaussian / all, px * kChannels, as_they_are.data());
-      mixed = true;
-    }
-    // (the mean counts for as much as is shown of the px, however lucky that is)
-    const float scale = sums.weights[at] > 0 ? shown / sums.weights[at] : 0;
-    for (int i = x * kChannels; i < (x + 1) * kChannels; ++i) {
-      const auto k = static_cast<size_t>(i);
-      float value = sums.sum[k] * scale;
-      if (missing > 0) value += missing * (known ? static_cast<float>(last[i]) : as_they_are[k]);
-      to[i] = cv::saturate_cast<Sample>(value / (shown + missing));
-    }
-    if (!known && missing > 0) seen[x] = 0;
-  }
-}
-
-using MeanOfPiece = void (*)(const std::vector<Part>&, const Before&, int, uint8_t*, uint8_t*);
-
-template <class Sample>
-MeanOfPiece MeanOfChannels(int channels) {
-  return channels == 1 ? MeanOf<Sample, 1> : MeanOf<Sample, 3>;
 }
 
 }  // namespace
@@ -240,12 +119,9 @@ void Background::Add(WeighedFrame frame) {
 
 BackgroundFrame Background::Mean() const {
   BackgroundFrame mean{cv::Mat(size_, type_), cv::Mat(size_, CV_8UC1)};
-  const int pieces = PiecesOf(size_.width), channels = CV_MAT_CN(type_);
+  const int pieces = PiecesOf(size_.width);
   const auto px_bytes = static_cast<int>(CV_ELEM_SIZE(type_));
-  const int depth = CV_MAT_DEPTH(type_);
-  const MeanOfPiece mean_of = depth == CV_8U    ? MeanOfChannels<uint8_t>(channels)
-                              : depth == CV_16U ? MeanOfChannels<uint16_t>(channels)
-                                                : MeanOfChannels<float>(channels);
+  const MeanOfPiece mean_of = MeanOfType(type_);
   const size_t end = std::min(window_.size(), at_ + static_cast<size_t>(params_.ahead) + 1);
   tbb::parallel_for(0, (size_.height + kRowsAtOnce - 1) / kRowsAtOnce, [&](int band) {
     std::vector<Part> parts;

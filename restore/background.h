@@ -39,12 +39,11 @@ struct BackgroundFrame {
 // 2 ahead + 1 frames in their own depth, however many there are.
 //
 // A px is the sum of the window's samples times their weights, over the sum of these weights: the Gaussian's,
-// times the share that does not move, times 1/4 where the frame was filled (border_fill.h), and, if
-// wanted, times how lucky the frame is there beside the others (least within 12 px of
-// what moves or is filled). Where the
-// window's frames see less than a quarter of what they could, what is missing to that quarter is taken from
-// the background before: so a px that stays hidden keeps what was last seen of it. A px that no frame so far
-// saw is the mean of the frames as they are (what hides it, that is), and not `seen`.
+// times the share that does not move, times 1/4 where the frame was filled (border_fill.h), and, if wanted,
+// times how lucky the frame is there beside the others (least within 12 px of what moves or is filled). Where
+// the window's frames see less than a quarter of what they could, what is missing to that quarter is taken
+// from the background before: so a px that stays hidden keeps what was last seen of it. A px that no frame so
+// far saw is the mean of the frames as they are (what hides it, that is), and not `seen`.
 class Background {
  public:
   // Throws std::invalid_argument for params outside of their ranges.
