@@ -41,4 +41,8 @@ class LuckSpread {
 
 inline constexpr double kLeastLuck_octaves = 0.33;
 
+// Frames of a video that luck is worth its noise in: of fewer the luckiest are one or two at a px, and these
+// change from px to px with the tilt that they have left, and straight lines become jagged.
+inline constexpr int64_t kLeastLuckyFrames = 12;
+
 }  // namespace shimmer::restore

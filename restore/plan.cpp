@@ -118,7 +118,7 @@ void PlanScene(const VideoFacts& facts, const RestoreParams& params, RestorePlan
   plan.stack = true;
   plan.ahead = background.ahead;
   plan.registered = background.registered;
-  plan.lucky = facts.scene->luck_octaves >= kLeastLuck_octaves;
+  plan.lucky = facts.frames >= kLeastLuckyFrames && facts.scene->luck_octaves >= kLeastLuck_octaves;
   plan.segment = params.segment && facts.scene->moving_share > 0;
   if (!plan.segment)
     plan.skipped.push_back(std::string("segmenting and blending: ") +

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "restore/plan.h"
 #include "tests/restore/frames.h"
 #include "tests/restore/wave_scene.h"
 
@@ -84,6 +85,25 @@ TEST(LuckSpread, HiddenPxAndFewFramesSayNothing) {
     }
   }
   EXPECT_NEAR(spread.Octaves(), 0, 1e-6);
+}
+
+// A scene with texture and turbulence, whose blur changes.
+TEST(LuckInThePlan, WantsBlurThatChangesAndFramesEnough) {
+  VideoFacts facts{.size = {100, 80}, .type = CV_8UC1, .frames = kLeastLuckyFrames};
+  facts.shifts.resize(kLeastLuckyFrames);
+  facts.scene = SceneFacts();
+  facts.scene->strength.texture = 0.5;
+  facts.scene->strength.tilt_variance_px2 = 1;
+  facts.scene->luck_octaves = kLeastLuck_octaves;
+  EXPECT_TRUE(PlanRestore(facts, {}).lucky);
+  facts.scene->luck_octaves = 0.9 * kLeastLuck_octaves;
+  EXPECT_FALSE(PlanRestore(facts, {}).lucky);
+  facts.scene->luck_octaves = kLeastLuck_octaves;
+  facts.frames = kLeastLuckyFrames - 1;
+  facts.shifts.pop_back();
+  const RestorePlan few = PlanRestore(facts, {});
+  EXPECT_TRUE(few.stack);
+  EXPECT_FALSE(few.lucky);
 }
 
 }  // namespace
