@@ -18,7 +18,8 @@ required=(
   python3
 )
 photos=(lomiri-wallpapers-16.04 lomiri-wallpapers-20.04 mate-backgrounds plasma-workspace-wallpapers)
-training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml python3-matplotlib)
+# Debian's PyTorch multiplies by whatever BLAS there is: with the reference one training takes four times as long.
+training=(python3-numpy python3-opencv python3-openimageio python3-torch python3-yaml python3-matplotlib libopenblas0-pthread)
 torch=(libtorch-dev)
 # Peers that single tests use: the noise library that the paper names; readers of what we write, a browser too.
 peers=(python3-noise python3-jsonschema python3-pil chromium fonts-dejavu-core)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Remakes the weights that ship, restore/models/shimmer.safetensors, from nothing: clips, stacked frames, training. An
-# hour on two cores; killed, it goes on where it stopped.
+# Remakes the weights that ship, restore/models/shimmer.safetensors, from nothing: clips, stacked frames, training. Two
+# hours on two cores; killed, it goes on where it stopped.
 #
 #   scripts/train/reproduce.sh [FOLDER]     which gets some 2 GB, default build/train
 set -euo pipefail
@@ -11,8 +11,8 @@ scripts/build.sh release
 programs=build/release/bin
 mkdir -p "$folder"
 for kind in static dynamic; do
-  "$programs/shimmer" generate "configs/train_$kind.json" --set clips=700 --out "$folder/$kind"
-  scripts/train/stack.py "$folder/$kind" --out "$folder/stacked/$kind" --clips 190 --program "$programs/unshimmer"
+  "$programs/shimmer" generate "configs/train_$kind.json" --set clips=420 --out "$folder/$kind"
+  scripts/train/stack.py "$folder/$kind" --out "$folder/stacked/$kind" --clips 400 --program "$programs/unshimmer"
 done
 # One thread, as it was trained: two are hardly faster, and sums in another order are other weights.
 OMP_NUM_THREADS=1 scripts/train/train.py scripts/train/small.json --data "$folder" --out "$folder/trained" --threads 1
