@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Remakes the weights that ship, restore/models/shimmer.safetensors, from nothing: clips, stacked frames, training. Two
-# hours on two cores; killed, it goes on where it stopped.
+# Remakes the weights that ship, restore/models/shimmer.safetensors, from nothing: clips, stacked frames, training. An
+# hour and a half on two cores; killed, it goes on where it stopped.
 #
 #   scripts/train/reproduce.sh [FOLDER]     which gets some 2 GB, default build/train
 set -euo pipefail
