@@ -42,8 +42,8 @@ TEST(PlanSharpening, IsSwitchedOnByATile) {
 }
 
 TEST(PlanSharpening, LeavesStillAirAlone) {
-  EXPECT_TRUE(PlanRestore(FactsOf(0.06), {.sharpen = kTile}).sharpen);
-  const RestorePlan still = PlanRestore(FactsOf(0.04), {.sharpen = kTile});
+  EXPECT_TRUE(PlanRestore(FactsOf(0.62), {.sharpen = kTile}).sharpen);
+  const RestorePlan still = PlanRestore(FactsOf(0.58), {.sharpen = kTile});
   EXPECT_FALSE(still.sharpen);
   EXPECT_THAT(still.skipped, Contains("sharpening: the turbulence is too weak to need it"));
 }
