@@ -18,7 +18,7 @@ namespace shimmer::restore {
 namespace {
 
 constexpr int kMostAhead = 14;
-constexpr double kFullWindow_px = 1;  // tilt from which on it is the longest
+constexpr double kFullWindow_px = 0.3;  // tilt from which on it is the longest
 constexpr double kLeastRegistered_px = 0.25;
 constexpr int kFilledShare = 4;  // a filled px counts that many times less
 constexpr int kNearMoving_px = 12;
@@ -64,9 +64,9 @@ BackgroundParams BackgroundFor(const TurbulenceStrength& strength, Register regi
 Background::Background(BackgroundParams params) : params_(std::move(params)) {
   if (params_.ahead < 0 || params_.ahead > 100)
     throw std::invalid_argument("ahead = " + std::to_string(params_.ahead) + ", must be in [0, 100]");
-  for (int k = 0; k <= params_.ahead; ++k)
+  for (int k = 0; k <= 2 * params_.ahead; ++k)
     gaussian_.push_back(
-        static_cast<float>(std::exp(-0.5 * std::pow(k / std::max(params_.ahead / 2.0, 0.5), 2))));
+        static_cast<float>(std::exp(-0.5 * std::pow(k / std::max<double>(params_.ahead, 1), 2))));
   if (params_.registered)
     registration_.emplace(RegisterParams{.scene = params_.scene,
                                          .first_frames = params_.ahead + 1,
@@ -81,29 +81,30 @@ void Background::StartFrom(const cv::Mat& background) {
   before_ = {background, cv::Mat(size_, CV_8UC1, cv::Scalar(255))};
 }
 
-std::optional<BackgroundFrame> Background::Next(const SteadyFrame& steady, const cv::Mat& moving) {
+std::vector<BackgroundFrame> Background::Next(const SteadyFrame& steady, const cv::Mat& moving) {
   RequireFrame(steady.frame, "frame");
   if (type_ == -1) size_ = steady.frame.size(), type_ = steady.frame.type();
   if (steady.frame.size() != size_ || steady.frame.type() != type_)
     throw std::invalid_argument("frame: is of another size or type than the first");
   WeighedFrame frame{steady.frame, WeightOf(steady.own, moving, size_)};
+  std::vector<BackgroundFrame> known;
   if (registration_) {
-    for (WeighedFrame& registered : registration_->Next(std::move(frame))) Add(std::move(registered));
+    for (WeighedFrame& registered : registration_->Next(std::move(frame))) Add(std::move(registered), known);
   } else {
-    Add(std::move(frame));
+    Add(std::move(frame), known);
   }
-  if (at_ + static_cast<size_t>(params_.ahead) >= window_.size()) return {};
-  return Given();
+  return known;
 }
 
 std::optional<BackgroundFrame> Background::Rest() {
+  std::vector<BackgroundFrame> none;  // what registering holds back does not fill the window
   if (registration_)
-    for (WeighedFrame& registered : registration_->Rest()) Add(std::move(registered));
+    for (WeighedFrame& registered : registration_->Rest()) Add(std::move(registered), none);
   if (at_ >= window_.size()) return {};
   return Given();
 }
 
-void Background::Add(WeighedFrame frame) {
+void Background::Add(WeighedFrame frame, std::vector<BackgroundFrame>& known) {
   Waiting waiting{std::move(frame), {}, {}};
   if (params_.lucky) waiting.luck = LuckBeside(waiting.seen);
   if (const cv::Mat& weight = waiting.seen.weight; !weight.empty())
@@ -114,7 +115,11 @@ void Background::Add(WeighedFrame frame) {
                                            row + std::min((piece + 1) * kPiece_px, weight.cols),
                                            [](uint8_t value) { return value == 255; }));
       }
+  const auto ahead = static_cast<size_t>(params_.ahead);
+  if (window_.size() == 2 * ahead + 1) window_.pop_front(), --at_;
   window_.push_back(std::move(waiting));
+  if (window_.size() == 2 * ahead + 1)
+    while (at_ <= ahead) known.push_back(Given());
 }
 
 BackgroundFrame Background::Mean() const {
@@ -122,14 +127,13 @@ BackgroundFrame Background::Mean() const {
   const int pieces = PiecesOf(size_.width);
   const auto px_bytes = static_cast<int>(CV_ELEM_SIZE(type_));
   const MeanOfPiece mean_of = MeanOfType(type_);
-  const size_t end = std::min(window_.size(), at_ + static_cast<size_t>(params_.ahead) + 1);
   tbb::parallel_for(0, (size_.height + kRowsAtOnce - 1) / kRowsAtOnce, [&](int band) {
     std::vector<Part> parts;
     for (int y = band * kRowsAtOnce; y < std::min((band + 1) * kRowsAtOnce, size_.height); ++y)
       for (int piece = 0; piece < pieces; ++piece) {
         const int first = piece * kPiece_px, px = std::min(kPiece_px, size_.width - first);
         parts.clear();
-        for (size_t k = 0; k < end; ++k) {
+        for (size_t k = 0; k < window_.size(); ++k) {
           const Waiting& from = window_[k];
           const bool full = from.full.empty() || from.full[static_cast<size_t>(y * pieces + piece)] != 0;
           parts.push_back({from.seen.frame.ptr(y) + first * px_bytes,
@@ -146,10 +150,9 @@ BackgroundFrame Background::Mean() const {
   return mean;
 }
 
-std::optional<BackgroundFrame> Background::Given() {
+BackgroundFrame Background::Given() {
   before_ = Mean();
   ++at_;
-  while (at_ > static_cast<size_t>(params_.ahead)) window_.pop_front(), --at_;
   return before_;
 }
 

@@ -15,8 +15,9 @@ namespace shimmer::restore {
 enum class Register { kAuto, kOn, kOff };
 
 struct BackgroundParams {
-  // Frames on either side of one that count with it, in [0, 100]. Their weights are those of a Gaussian of
-  // sigma = ahead / 2 frames. 0: each frame by itself.
+  // Frames on either side of one that count with it, in [0, 100]; at the ends of the video as many more on
+  // the other side, if there are. Their weights are those of a Gaussian of sigma = ahead frames. 0: each
+  // frame by itself.
   int ahead = 14;
   bool registered = false;    // before the mean is taken (register.h)
   bool lucky = false;         // px count by how sharp a frame is there (luck.h)
@@ -24,10 +25,10 @@ struct BackgroundParams {
   PairFlow flow = FineFlow();
 };
 
-// The stated rule. The window grows with the tilt: ahead = 14 frames for every px of its root mean square
-// along an axis, 14 at most: from 1 frame where there is none to 29 from 1 px on. Frames are registered
-// (kAuto) where that root mean square is 0.25 px or more: on clips of Shimmer's that gave 0.15 dB at 0.25 px,
-// but 0.03 dB at 0.12 px.
+// The stated rule. The window grows with the tilt, from 1 frame where there is none to 29 (ahead = 14) where
+// its root mean square along an axis is 0.3 px or more: on 80 clips of Shimmer's, half of them with things
+// that move, as many from 1 px on gained 0.17 dB less. Frames are registered (kAuto) where it is 0.25 px or
+// more: that gave 0.15 dB at 0.25 px, but 0.03 dB at 0.12 px.
 BackgroundParams BackgroundFor(const TurbulenceStrength& strength, Register registered);
 
 struct BackgroundFrame {
@@ -35,8 +36,8 @@ struct BackgroundFrame {
   cv::Mat seen;   // CV_8UC1: 255; 0 where no frame so far saw the static scene
 };
 
-// Frames one after the other, each one's background given out once `ahead` later ones are known. Memory:
-// 2 ahead + 1 frames in their own depth, however many there are.
+// Frames one after the other, each one's background given out once `ahead` later ones are known, and the
+// first once 2 `ahead` are. Memory: 2 ahead + 1 frames in their own depth, however many there are.
 //
 // A px is the sum of the window's samples times their weights, over the sum of these weights: the Gaussian's,
 // times the share that does not move, times 1/4 where the frame was filled (border_fill.h), and, if wanted,
@@ -54,11 +55,12 @@ class Background {
   // std::invalid_argument.
   void StartFrom(const cv::Mat& background);
 
-  // The background of the frame `ahead` before this one, if there is one. steady.frame: CV_8U, CV_16U or
-  // CV_32F of 1 or 3 channels, of the size and type of the first; steady.own may be empty: all its own.
+  // The backgrounds that are known now, in order: those of the first ahead + 1 frames at once, then that of
+  // the frame `ahead` before this one. steady.frame: CV_8U, CV_16U or CV_32F of 1 or 3 channels, of the size
+  // and type of the first; steady.own may be empty: all its own.
   // moving: CV_8UC1 of that size, 255 where something moves, between where that is not sure; empty: nothing
   // moves. Throws std::invalid_argument for others. The same on any number of threads.
-  std::optional<BackgroundFrame> Next(const SteadyFrame& steady, const cv::Mat& moving = {});
+  std::vector<BackgroundFrame> Next(const SteadyFrame& steady, const cv::Mat& moving = {});
 
   // After the last frame: those that are still to come, in order.
   std::optional<BackgroundFrame> Rest();
@@ -70,9 +72,9 @@ class Background {
     cv::Mat luck;                     // LuckOf the frame, where wanted
   };
 
-  void Add(WeighedFrame frame);
+  void Add(WeighedFrame frame, std::vector<BackgroundFrame>& known);
   BackgroundFrame Mean() const;  // of the frame that is next to be given out
-  std::optional<BackgroundFrame> Given();
+  BackgroundFrame Given();
 
   BackgroundParams params_;
   std::vector<float> gaussian_;  // by distance in frames

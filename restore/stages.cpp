@@ -185,21 +185,22 @@ class Stack : public Stage {
       if (const cv::Mat picture = PictureOf(scene_, frame.frame.size(), frame.frame.type()); !picture.empty())
         background_.StartFrom(picture);
     waiting_.Add(frame);
-    return WithBackground(background_.Next({frame.frame, frame.own}, frame.mask));
+    std::vector<FrameOnWay> done;
+    for (const BackgroundFrame& known : background_.Next({frame.frame, frame.own}, frame.mask))
+      done.push_back(WithBackground(known));
+    return done;
   }
   std::vector<FrameOnWay> Rest() override {
     std::vector<FrameOnWay> done;
-    while (auto background = background_.Rest())
-      done.push_back(WithBackground(std::move(background)).front());
+    while (const auto known = background_.Rest()) done.push_back(WithBackground(*known));
     return done;
   }
 
  private:
-  std::vector<FrameOnWay> WithBackground(std::optional<BackgroundFrame> background) {
-    if (!background) return {};
+  FrameOnWay WithBackground(const BackgroundFrame& known) {
     FrameOnWay frame = waiting_.Take();
-    frame.background = background->frame;
-    return {frame};
+    frame.background = known.frame;
+    return frame;
   }
 
   Background background_;

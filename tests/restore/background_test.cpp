@@ -27,9 +27,10 @@ std::vector<BackgroundFrame> Backgrounds(const std::vector<Seen>& frames, const 
   if (!start.empty()) background.StartFrom(start);
   std::vector<BackgroundFrame> all;
   for (size_t k = 0; k < frames.size(); ++k) {
-    const auto mean = background.Next(frames[k].steady, frames[k].moving);
-    EXPECT_EQ(mean.has_value(), k >= static_cast<size_t>(params.ahead));
-    if (mean) all.push_back(*mean);
+    const auto known = background.Next(frames[k].steady, frames[k].moving);
+    const auto ahead = static_cast<size_t>(params.ahead);
+    EXPECT_EQ(known.size(), k < 2 * ahead ? 0 : k == 2 * ahead ? ahead + 1 : 1);
+    all.insert(all.end(), known.begin(), known.end());
   }
   while (const auto mean = background.Rest()) all.push_back(*mean);
   EXPECT_EQ(all.size(), frames.size());
@@ -44,7 +45,7 @@ struct Twin {
 
   double Gaussian(size_t j, size_t k) const {
     const double away = static_cast<double>(j) - static_cast<double>(k);
-    return std::exp(-0.5 * std::pow(away / std::max(ahead / 2.0, 0.5), 2));
+    return std::exp(-0.5 * std::pow(away / std::max(ahead, 1), 2));
   }
   // Of 255, what a px shows of the scene.
   static double Shows(const Seen& seen, int x, int y) {
@@ -63,8 +64,9 @@ struct Twin {
   // Of sample c of a px of frame k's background; before: that of the frame before, NaN if it is not seen.
   double At(size_t k, int x, int y, int c, double before) const {
     double sum = 0, lucky = 0, own = 0, all = 0, as_they_are = 0;
-    const size_t first = k < static_cast<size_t>(ahead) ? 0 : k - static_cast<size_t>(ahead),
-                 end = std::min(frames.size(), k + static_cast<size_t>(ahead) + 1);
+    // The 2 ahead + 1 frames nearest in time, as far as there are so many.
+    const auto beside = static_cast<size_t>(ahead), window = std::min(2 * beside + 1, frames.size());
+    const size_t first = std::min(k < beside ? 0 : k - beside, frames.size() - window), end = first + window;
     int luckiest = 0;
     for (size_t j = first; j < end; ++j)
       if (Shows(frames[j], x, y) > 0) luckiest = std::max(luckiest, LuckAt(j, x, y));
@@ -181,7 +183,7 @@ TEST(Background, FilledPxWeighLess) {
   const std::vector<Seen> frames = {{{Flat({6, 6}, CV_32FC1, 100), {}}},
                                     {{Flat({6, 6}, CV_32FC1, 200), filled}}};
   const auto found = Backgrounds(frames, {.ahead = 1});
-  const double side = std::exp(-0.5 * 4);  // sigma = 1/2 frame
+  const double side = std::exp(-0.5);  // sigma = 1 frame
   EXPECT_NEAR(LevelAt(found[0].frame, 3, 3, 0), (100 + side * 200 * 64 / 255.0) / (1 + side * 64 / 255.0),
               1e-3);
 }
@@ -254,8 +256,8 @@ TEST(BackgroundFor, FollowsTheStrength) {
     return BackgroundFor(strength, registered);
   };
   EXPECT_EQ(params(0, Register::kAuto).ahead, 0);
-  EXPECT_EQ(params(0.5, Register::kAuto).ahead, 7);
-  EXPECT_EQ(params(1, Register::kAuto).ahead, 14);
+  EXPECT_EQ(params(0.15, Register::kAuto).ahead, 7);
+  EXPECT_EQ(params(0.3, Register::kAuto).ahead, 14);
   EXPECT_EQ(params(9, Register::kAuto).ahead, 14);
   int before = 0;
   for (double tilt_px = 0; tilt_px < 2; tilt_px += 0.01) {
