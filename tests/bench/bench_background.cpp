@@ -86,7 +86,7 @@ std::vector<cv::Mat> Backgrounds(const std::vector<cv::Mat>& frames,
   restore::Background background(params);
   std::vector<cv::Mat> means;
   for (const cv::Mat& frame : frames)
-    if (const auto mean = background.Next({frame, {}})) means.push_back(mean->frame);
+    for (const restore::BackgroundFrame& mean : background.Next({frame, {}})) means.push_back(mean.frame);
   while (const auto mean = background.Rest()) means.push_back(mean->frame);
   return means;
 }
