@@ -75,6 +75,15 @@ TEST_P(Signals, EndARunInGoodOrder) {
   times.Check(GetParam());
 }
 
+// The signal has a handler in that process by now.
+bool Catches(pid_t pid, int signal) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (const std::string key = "SigCgt:"; line.starts_with(key))
+      return (std::stoull(line.substr(key.size()), nullptr, 16) >> (signal - 1) & 1) != 0;
+  return false;
+}
+
 // Other things that take their time: reading sources to the end, waiting for another process.
 TEST(SignalsElsewhere, EndWhatIsNoClip) {
   const TempFolder folder;
@@ -87,8 +96,8 @@ TEST(SignalsElsewhere, EndWhatIsNoClip) {
   for (const Words& words : {GenerateWords("hash.json", "set"), GenerateWords("c.json", "held", {"--wait"})})
     for (int stop = 0; stop < Times(1, 10); ++stop) {
       Running run(folder.path(), words);
-      std::this_thread::sleep_for(
-          std::chrono::seconds(1));  // until it listens; it goes on for more than that
+      WaitUntil([&] { return Catches(run.pid(), SIGTERM); });
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));  // well into it
       const auto asked = Clock::now();
       run.Signal(SIGTERM);
       const Ran ran = run.Wait();
