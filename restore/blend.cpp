@@ -22,8 +22,8 @@ cv::Mat BlendedOf(const cv::Mat& frame, const cv::Mat& background, const cv::Mat
     const auto* with = background.ptr<Sample>(px.y) + px.x * channels;
     Sample4 result;
     for (int c = 0; c < channels; ++c) {
-      const float value = (static_cast<float>(with[c]) - static_cast<float>(of[c])) * to_levels;
-      result.v[c] = std::isfinite(value) ? value : 0;
+      result.v[c] = (static_cast<float>(with[c]) - static_cast<float>(of[c])) * to_levels;
+      if (!(std::abs(result.v[c]) <= kMostOffset_levels)) return Sample4();  // (or is not finite)
     }
     return result;
   };
