@@ -26,7 +26,7 @@ from references import missing_references
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PYTHON = "/usr/bin/python3"  # of Debian, which has its packages (numpy, OpenImageIO)
-SECONDS = 300  # for one block, which takes a minute at most where nothing else runs
+SECONDS = 120  # for one block; a page takes far less
 
 
 class Fault(Exception):
